@@ -10,10 +10,12 @@
 #include <array>
 #include <bit>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "collision_core/base/check.h"
 #include "idl/identity.h"
@@ -27,12 +29,14 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t kRecordBytes = 128;
 constexpr std::size_t kPayloadBytes = kRecordBytes - sizeof(std::uint64_t);
+constexpr char kInUse[] = ": in use: another collisiond serves this world";
 constexpr char kMagic[8] = {'C', 'J', 'O', 'U', 'R', 'N', 'A', 1};
 
 struct Head {
   char magic[sizeof(kMagic)];
   std::uint32_t term;
   std::uint32_t epoch;
+  std::uint32_t rows;  // that the file has at least; it grows after the row is written
 };
 
 struct Row {
@@ -94,14 +98,33 @@ JournalledSimulator SimulatorOf(const Row& row) {
   return simulator;
 }
 
+/// The file, open and locked; -1: there is none, and `flags` do not make one.
+int OpenLocked(const std::string& path, int flags) {
+  const int file = open(path.c_str(), flags | O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
+  if (file < 0 && errno == ENOENT && (flags & O_CREAT) == 0) return -1;
+  if (file < 0) Fail(path, "cannot be written: " + CauseOf(errno));
+  struct stat facts {};
+  const bool regular = fstat(file, &facts) == 0 && S_ISREG(facts.st_mode);
+  if (regular && flock(file, LOCK_EX | LOCK_NB) == 0) return file;
+  const int error_number = errno;
+  close(file);
+  if (!regular) Fail(path, "is no regular file");
+  if (error_number != EWOULDBLOCK) Fail(path, "cannot be locked: " + CauseOf(error_number));
+  throw JournalInUse(path + kInUse);
+}
+
 }  // namespace
 
 Journal::Journal(const std::string& folder, const std::string& world, std::uint32_t domain,
                  std::size_t simulators_max)
     : simulators_max_(simulators_max),
       path_(fmt::format("{}/{}.{}.journal", folder, world, domain)) {
-  Open(folder);
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) Fail(folder, "cannot be made: " + failure.message());
   try {
+    file_ = OpenLocked(path_, 0);
+    if (file_ < 0) Begin();
     Read();
   } catch (...) {
     close(file_);
@@ -111,56 +134,92 @@ Journal::Journal(const std::string& folder, const std::string& world, std::uint3
 
 Journal::~Journal() { close(file_); }
 
-void Journal::Open(const std::string& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) Fail(folder, "cannot be made: " + failure.message());
-  file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
-  if (file_ < 0) Fail(path_, "cannot be written: " + CauseOf(errno));
-  struct stat facts {};
-  const bool regular = fstat(file_, &facts) == 0 && S_ISREG(facts.st_mode);
-  if (regular && flock(file_, LOCK_EX | LOCK_NB) == 0) return;
-  const int error_number = errno;
-  close(file_);
-  if (!regular) Fail(path_, "is no regular file");
-  if (error_number != EWOULDBLOCK) Fail(path_, "cannot be locked: " + CauseOf(error_number));
-  throw JournalInUse(path_ + ": in use: another collisiond serves this world");
+/// Under another name until its head is on the medium: so an empty file is a damaged journal.
+void Journal::Begin() {
+  const std::string unfinished = path_ + ".new";
+  file_ = OpenLocked(unfinished, O_CREAT);
+  if (access(path_.c_str(), F_OK) == 0) {
+    unlink(unfinished.c_str());
+    throw JournalInUse(path_ + kInUse);
+  }
+  const bool empty = ftruncate(file_, 0) == 0;
+  if (empty && WriteHead() && fsync(file_) == 0 && rename(unfinished.c_str(), path_.c_str()) == 0) {
+    return;
+  }
+  const std::string cause = CauseOf(errno);
+  unlink(unfinished.c_str());
+  if (!error_.empty()) throw std::runtime_error(error_);
+  Fail(path_, "cannot be made: " + cause);
 }
 
 void Journal::Read() {
+  struct stat facts {};
   std::string bytes((1 + simulators_max_) * kRecordBytes, '\0');
   const ssize_t size = pread(file_, bytes.data(), bytes.size(), 0);
-  if (size < 0) Fail(path_, "cannot be read: " + CauseOf(errno));
+  if (size < 0 || fstat(file_, &facts) != 0) Fail(path_, "cannot be read: " + CauseOf(errno));
   bytes.resize(static_cast<std::size_t>(size));
-  // An empty file is a new journal, or one that ended before its first write.
-  if (bytes.empty() && !WriteHead()) throw std::runtime_error(error_);
   if (!bytes.empty() && bytes.compare(0, sizeof kMagic, kMagic, sizeof kMagic) != 0) {
     Fail(path_, "byte 0: not a journal of this version; move it away to begin anew");
   }
   for (std::size_t record = 0; record * kRecordBytes < bytes.size(); ++record) {
-    const std::string one = bytes.substr(record * kRecordBytes, kRecordBytes);
-    if (one.size() < kRecordBytes || !Fits(record, one)) {
-      damage_.push_back(fmt::format("{}: byte {}: {} does not fit its checksum and is left out",
-                                    path_, record * kRecordBytes,
-                                    record == 0 ? "the term" : "a simulator"));
-      continue;
-    }
-    if (record == 0) {
-      const Head head = FromPayload<Head>(one);
-      term_ = head.term;
-      epoch_ = head.epoch;
-      continue;
-    }
-    const Row row = FromPayload<Row>(one);
-    if (row.name_length == 0 || row.name_length > wire::kNameMax) continue;
-    simulators_[row.id] = SimulatorOf(row);
-    record_of_[row.id] = record;
+    ReadRecord(record, bytes.substr(record * kRecordBytes, kRecordBytes));
   }
+  const auto file_bytes = static_cast<std::size_t>(facts.st_size);
+  const std::size_t found = (file_bytes + kRecordBytes - 1) / kRecordBytes;
+  if (found == 0) AddDamage(0, "the file is empty: the term and all simulators are lost");
+  if (found > 0 && found < 1 + rows_) {
+    AddDamage(file_bytes,
+              fmt::format("the file ends here, {} records too early", 1 + rows_ - found));
+  }
+  const std::size_t rows_found = std::max<std::size_t>(found, 1) - 1;
+  rows_ = std::min(rows_, rows_found);
+  CountBeyond();
+  rows_ = std::max(rows_, std::min(rows_found, simulators_max_));
   std::vector<bool> taken(1 + simulators_max_);
   for (const auto& [id, record] : record_of_) taken[record] = true;
   for (std::size_t record = simulators_max_; record > 0; --record) {
     if (!taken[record]) free_.push_back(record);
   }
+}
+
+void Journal::ReadRecord(std::size_t record, const std::string& bytes) {
+  if (bytes.size() < kRecordBytes || !Fits(record, bytes)) {
+    AddDamage(record * kRecordBytes, fmt::format("{} does not fit its checksum",
+                                                 record == 0 ? "the term" : "a simulator"));
+    if (record > 0) spoilt_.push_back(record);
+    return;
+  }
+  if (record == 0) {
+    const Head head = FromPayload<Head>(bytes);
+    term_ = head.term;
+    epoch_ = head.epoch;
+    rows_ = head.rows;
+    return;
+  }
+  const Row row = FromPayload<Row>(bytes);
+  if (row.name_length == 0 || row.name_length > wire::kNameMax) return;
+  simulators_[row.id] = SimulatorOf(row);
+  record_of_[row.id] = record;
+}
+
+void Journal::CountBeyond() {
+  std::size_t simulators = 0;
+  for (std::size_t record = 1 + simulators_max_; record <= rows_; ++record) {
+    std::string bytes(kRecordBytes, '\0');
+    const auto place = static_cast<off_t>(record * kRecordBytes);
+    if (pread(file_, bytes.data(), bytes.size(), place) != static_cast<ssize_t>(bytes.size()))
+      break;
+    if (Fits(record, bytes) && FromPayload<Row>(bytes).name_length == 0) continue;
+    spoilt_.push_back(record);
+    ++simulators;
+  }
+  if (simulators == 0) return;
+  AddDamage((1 + simulators_max_) * kRecordBytes,
+            fmt::format("simulators beyond simulators_max, which was larger: {}", simulators));
+}
+
+void Journal::AddDamage(std::size_t byte, const std::string& what) {
+  damage_.push_back(fmt::format("{}: byte {}: {}", path_, byte, what));
 }
 
 bool Journal::Write(std::size_t record, const std::string& payload) {
@@ -181,12 +240,17 @@ bool Journal::WriteHead() {
   std::copy(std::begin(kMagic), std::end(kMagic), head.magic);
   head.term = term_;
   head.epoch = epoch_;
+  head.rows = static_cast<std::uint32_t>(rows_);
   return Write(0, PayloadOf(head));
 }
 
 bool Journal::SetTerm(std::uint32_t term, std::uint32_t epoch) {
   term_ = term;
   epoch_ = epoch;
+  for (const std::size_t record : std::exchange(spoilt_, {})) {
+    const auto holds = [&](const auto& entry) { return entry.second == record; };
+    if (std::ranges::none_of(record_of_, holds)) Write(record, PayloadOf(Row{}));
+  }
   return WriteHead();
 }
 
@@ -202,7 +266,10 @@ bool Journal::Put(const JournalledSimulator& simulator) {
     return error_.empty();
   }
   simulators_[simulator.id] = simulator;
-  return Write(record->second, PayloadOf(RowOf(simulator)));
+  if (!Write(record->second, PayloadOf(RowOf(simulator)))) return false;
+  if (record->second <= rows_) return true;
+  rows_ = record->second;
+  return WriteHead();
 }
 
 bool Journal::Remove(std::uint64_t id) {

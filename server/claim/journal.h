@@ -26,8 +26,10 @@ class JournalInUse : public std::runtime_error {
 /// machine that loses its power may lose what its page cache holds: the last seconds, or one record
 /// that does not fit its checksum. It is of the machine that wrote it (little-endian).
 ///
-/// **Damage.** What does not fit its checksum is left out and told by damage(); nothing else is
-/// lost.
+/// **Damage.** What does not fit its checksum, what is missing at the end, and simulators beyond
+/// `simulators_max` are left out and told by damage(); nothing else is lost. A journal is given its
+/// name only once its head is on the medium, so an empty file is a damaged one. The next SetTerm()
+/// frees the records that were left out.
 ///
 /// **Failure.** A write that fails (a full disk, a medium gone read-only) is told by error(), and
 /// nothing more is written. One thread.
@@ -52,7 +54,7 @@ class Journal {
   /// Whether the roster has no room for another simulator.
   bool full() const { return free_.empty(); }
 
-  /// What was left out when it was opened, a line each.
+  /// What was left out when it was opened, a line each, with path and byte.
   const std::vector<std::string>& damage() const { return damage_; }
 
   /// All are on file when they return; false: they are not, and error() says why.
@@ -65,8 +67,11 @@ class Journal {
   const std::string& error() const { return error_; }
 
  private:
-  void Open(const std::string& folder);
+  void Begin();
   void Read();
+  void ReadRecord(std::size_t record, const std::string& bytes);
+  void CountBeyond();
+  void AddDamage(std::size_t byte, const std::string& what);
   bool Write(std::size_t record, const std::string& payload);
   bool WriteHead();
 
@@ -78,6 +83,8 @@ class Journal {
   std::map<std::uint64_t, JournalledSimulator> simulators_;
   std::map<std::uint64_t, std::size_t> record_of_;  ///< By simulator.
   std::vector<std::size_t> free_;                   ///< Records without a simulator, last first.
+  std::size_t rows_ = 0;                            ///< Records after the head that the file has.
+  std::vector<std::size_t> spoilt_;  ///< Of these, those that do not fit, until SetTerm().
   std::vector<std::string> damage_;
   std::string error_;
 };

@@ -17,7 +17,7 @@ struct ConfigResult {
 };
 
 /// Reads protobuf text and fills in the defaults. `name` stands for the file in errors. Reading
-/// goes on after an error where it can, so that all errors are reported, one per line of the text.
+/// goes on after an error where it can, so that all errors are reported, one per field.
 ConfigResult ParseConfig(const std::string& text, const std::string& name);
 
 /// ParseConfig of a file's content; a file that cannot be read is an error too.

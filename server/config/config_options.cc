@@ -60,27 +60,32 @@ constexpr ConfigOption kOptions[] = {
      "With SIMULATED, when the process of a simulator has died, or it does not move although it "
      "was granted time: WAIT stops the world's time until it is back, RELEASE goes on without it "
      "after release_after_s. Its agents stay either way, and their bounds grow. A service that is "
-     "started again waits likewise for those that the one before it served."},
+     "started again waits likewise for those that the one before it served.",
+     "", "SIMULATED"},
     {"clock.release_after_s", "s", "0.1", "86400", "", "5",
      "How long RELEASE waits; longer than any simulator takes for one step. With WAIT it must keep "
      "its default."},
     {"clock.first_clock_max_s", "s", "0", "4000000000", "", "31536000",
      "With SIMULATED, the latest time at which an epoch of the world may begin: a first clock "
      "beyond "
-     "it, such as a time since 1970, is refused."},
+     "it, such as a time since 1970, is refused.",
+     "", "SIMULATED"},
     {"clock.shape_wait_max_s", "s", "0", "86400", "", "60",
      "With SIMULATED, how long time stands still for the shape of an agent: until it has arrived "
      "and its tree is built. After that the agent counts as its ball, or with its coarse tree, and "
-     "from when on the tree counts is chance: two runs need not have the same events."},
+     "from when on the tree counts is chance: two runs need not have the same events.",
+     "", "SIMULATED"},
     {"clock.waiting_after_s", "s", "0.1", "86400", "", "5",
      "With SIMULATED, a simulator that was granted time, is the last one and tells nothing new for "
-     "so long is named: in the log, in the status, and to the other simulators."},
+     "so long is named: in the log, in the status, and to the other simulators.",
+     "", "SIMULATED"},
     {"clock.remove_silent_after_s", "s", "0", "604800", "", "60",
      "A simulator that has been silent for so long is removed with its agents: with WALL since its "
      "process died, with SIMULATED since it was released (on_silent_simulator RELEASE). 0: never."},
     {"clock.wait_for_synchronisation_s", "s", "0", "86400", "", "0",
      "With WALL, wait so long at the start until the system counts its clock as synchronised, then "
-     "go on without. 0: do not wait."},
+     "go on without. 0: do not wait.",
+     "", "WALL"},
     {"log_level", "none", "", "", "trace, debug, info, warn, error, critical or off", "\"info\"",
      "The least severe lines that are logged."},
     {"log_file", "none", "", "", "a path of at most 4096 printable ASCII characters, or empty",
@@ -159,8 +164,9 @@ constexpr ConfigOption kOptions[] = {
      "Folder of the journal: what a service must remember when it is started again. It is made if "
      "it is missing. Empty: the folder that systemd names (StateDirectory=), else none."},
     {"on_state_failure", "none", "", "", "GO_ON or END", "GO_ON",
-     "When the journal cannot be read or written: GO_ON serves without one, END ends the service. "
-     "It is logged either way."},
+     "When the journal is damaged, or cannot be read or written: GO_ON serves with what is left of "
+     "it, END ends the service with 74. It is logged either way. END needs a folder of the "
+     "journal."},
     {"claim_wait_s", "s", "0", "60", "", "0.5",
      "How long a service that starts listens whether another one serves the world, in which case "
      "it "

@@ -20,6 +20,7 @@ struct ConfigOption {
   std::string_view value;            ///< The default as protobuf text.
   std::string_view meaning;          ///< What it does, for the reader of the configuration file.
   std::string_view wall_value = {};  ///< The default with the wall clock, where it is another.
+  std::string_view only_with = {};   ///< The kind of clock without which it must keep its default.
 };
 
 /// Every field of v1::Config in the order in which they are declared, those of `clock` where it

@@ -10,10 +10,10 @@ enum ExitCode {
   kExitUnavailable = 69,    ///< DDS is not available.
   kExitSoftware = 70,       ///< A fault of this program: a check has failed.
   kExitSystem = 71,         ///< Memory, or another resource of the system, is exhausted.
-  kExitRecording = 74,      ///< A recording or the journal cannot be written, or a recording not
-                            ///< be read to its end.
+  kExitFile = 74,           ///< A file or folder that it needs cannot be written or read, or is
+                            ///< damaged: recording, journal, log, tree cache.
   kExitOccupied = 75,       ///< Another service has the world.
-  kExitConfiguration = 78,  ///< The configuration is wrong.
+  kExitConfiguration = 78,  ///< The configuration is wrong, or its file cannot be read.
 };
 
 }  // namespace collision::server

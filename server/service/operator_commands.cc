@@ -69,15 +69,20 @@ std::string OperatorCommands::RestartTime() {
   }
   world_.silence().roster().GiveUpAll();
   std::size_t ended = 0;
+  std::size_t others = 0;
   for (auto& [id, simulator] : world_.simulators()) {
-    if (simulator.has_left() || !simulator.time().clock()) continue;
+    if (simulator.has_left()) continue;
+    if (!simulator.time().clock()) {
+      ++others;
+      continue;
+    }
     intake_.EndRun(&simulator, EndCause::kRestarted);
     ++ended;
   }
   return fmt::format(
-      "done: the world's time begins anew with the next first clock; {} simulators were in it: "
-      "each is welcome again with a higher run",
-      ended);
+      "done: the world's time begins anew with the next first clock; simulators that were in it, "
+      "each welcome again with a higher run: {}; others, which had told no clock and go on: {}",
+      ended, others);
 }
 
 std::string OperatorCommands::KnownNames() const {

@@ -33,8 +33,10 @@ Exit codes:
   69  DDS is not available
   70  a check has failed: a bug in collisiond, which the log describes
   71  memory, or another resource of the system, is exhausted
-  74  a recording cannot be written, or not be read to its end
-  78  bad configuration)";
+  74  a file or folder cannot be written or read, or is damaged: a recording, the journal in
+      state_dir (with on_state_failure END), log_file, tree_cache_dir
+  75  another service has the world
+  78  the configuration is wrong, or its file cannot be read)";
 
 /// Takes the range from the table of the configuration.
 CLI::Validator AllowedBy(const char* field) {

@@ -63,20 +63,36 @@ std::shared_ptr<TreeCache> MakeTreeCache(const v1::Config& config) {
                                      BuildOptionsOf(config).tree);
 }
 
+/// The journal, whole or not. Throws std::runtime_error if it is damaged and that is to end the
+/// service.
+std::unique_ptr<Journal> ReadJournal(const v1::Config& config) {
+  auto journal = std::make_unique<Journal>(config.state_dir(), config.world(), config.domain(),
+                                           config.simulators_max());
+  const std::vector<std::string>& damage = journal->damage();
+  if (!damage.empty() && config.on_state_failure() == v1::Config::END) {
+    const std::string more =
+        damage.size() > 1 ? " (and " + std::to_string(damage.size() - 1) + " more)" : "";
+    throw std::runtime_error(damage[0] + more + "; move the file away to begin anew");
+  }
+  for (const std::string& line : damage) {
+    spdlog::warn("{}; the service goes on with what is left of it (on_state_failure)", line);
+  }
+  return journal;
+}
+
 /// Null: none is wanted, or the service goes on without one, for the reason in `failure`. Throws
 /// std::runtime_error otherwise.
 std::unique_ptr<Journal> OpenJournal(const v1::Config& config, std::string* failure) {
   if (config.state_dir().empty()) return nullptr;
   try {
-    auto journal = std::make_unique<Journal>(config.state_dir(), config.world(), config.domain(),
-                                             config.simulators_max());
-    for (const std::string& damage : journal->damage()) spdlog::warn("{}", damage);
-    return journal;
+    return ReadJournal(config);
   } catch (const JournalInUse&) {
     throw;
   } catch (const std::runtime_error& error) {
-    if (config.on_state_failure() == v1::Config::END) throw;
     spdlog::error("{}", error.what());
+    if (config.on_state_failure() == v1::Config::END) {
+      throw std::runtime_error(std::string(error.what()) + kGoOnInstead);
+    }
     *failure = error.what();
     return nullptr;
   }
@@ -95,7 +111,12 @@ int Serve(const v1::Config& config, const std::string& record_file) {
   try {
     cache = MakeTreeCache(config);
   } catch (const std::runtime_error& error) {
-    return Fail(kExitConfiguration, std::string("tree_cache_dir: ") + error.what());
+    return Fail(kExitFile, std::string("tree_cache_dir: ") + error.what());
+  }
+  if (config.on_state_failure() == v1::Config::END && config.state_dir().empty()) {
+    return Fail(kExitConfiguration,
+                "on_state_failure: END needs a folder for the journal: set state_dir, or "
+                "StateDirectory= in the unit of systemd (it sets STATE_DIRECTORY)");
   }
   std::unique_ptr<Journal> journal;
   std::string state_failure;
@@ -104,7 +125,7 @@ int Serve(const v1::Config& config, const std::string& record_file) {
   } catch (const JournalInUse& error) {
     return Fail(kExitOccupied, error.what());
   } catch (const std::runtime_error& error) {
-    return Fail(kExitConfiguration, std::string("state_dir: ") + error.what());
+    return Fail(kExitFile, std::string("state_dir: ") + error.what());
   }
   ClaimOptions claim = {.instance = DrawInstance(),
                         .term_before = journal ? journal->term() : 0,
@@ -119,7 +140,7 @@ int Serve(const v1::Config& config, const std::string& record_file) {
       recorder = std::make_unique<RecordingWriter>(record_file, config, claim);
     }
   } catch (const std::runtime_error& error) {
-    return Fail(kExitRecording, error.what());
+    return Fail(kExitFile, error.what());
   }
   std::unique_ptr<DdsBus> bus;
   try {
@@ -154,8 +175,8 @@ int Replay(RecordingReader& reader) {
   }
   std::cout.flush();
   LogFingerprint(daemon.event_log());
-  if (!reader.error().empty()) return Fail(kExitRecording, reader.error());
-  return std::cout ? kExitOk : Fail(kExitRecording, "standard output cannot be written");
+  if (!reader.error().empty()) return Fail(kExitFile, reader.error());
+  return std::cout ? kExitOk : Fail(kExitFile, "standard output cannot be written");
 }
 
 int Replay(const std::string& file, const std::string& log_level) {
@@ -164,10 +185,10 @@ int Replay(const std::string& file, const std::string& log_level) {
   try {
     reader = std::make_unique<RecordingReader>(file);
   } catch (const std::runtime_error& error) {
-    return Fail(kExitRecording, error.what());
+    return Fail(kExitFile, error.what());
   }
   for (const ConfigError& error : CheckConfig(reader->config())) {
-    return Fail(kExitRecording,
+    return Fail(kExitFile,
                 file + ": byte 0: its configuration: " + error.field + ": " + error.what);
   }
   return Replay(*reader);
@@ -196,7 +217,7 @@ int Run(const Options& options) {
   try {
     StartLogging(loaded.config.log_level(), loaded.config.log_file());
   } catch (const std::exception& error) {
-    return Fail(kExitConfiguration, std::string("log_file: ") + error.what());
+    return Fail(kExitFile, std::string("log_file: ") + error.what());
   }
   TakeFoldersOfSystemd(&loaded.config);
   return Serve(loaded.config, options.record_file);

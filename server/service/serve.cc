@@ -106,10 +106,10 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   }
   service_manager.Stopping();
   LogFingerprint(daemon.event_log());
-  if (recorder && !recorder->error().empty()) return Fail(kExitRecording, recorder->error());
+  if (recorder && !recorder->error().empty()) return Fail(kExitFile, recorder->error());
   const bool ends = config.on_state_failure() == v1::Config::END;
   if (ends && parts.journal != nullptr && !parts.journal->error().empty()) {
-    return Fail(kExitRecording, "state_dir: " + parts.journal->error());
+    return Fail(kExitFile, "state_dir: " + parts.journal->error() + kGoOnInstead);
   }
   if (daemon.claim().phase() == ClaimPhase::kYielded) {
     return Fail(kExitOccupied, "world \"" + config.world() + "\": " + daemon.claim().why());

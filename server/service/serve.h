@@ -16,6 +16,10 @@
 
 namespace collision::server {
 
+/// The end of the line about a journal that ends the service.
+inline constexpr char kGoOnInstead[] =
+    " (on_state_failure is END; GO_ON serves without what is lost)";
+
 /// What a service may have beside its bus; all may be null.
 struct ServiceParts {
   RecordingWriter* recorder = nullptr;

@@ -9,6 +9,8 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 
 #include "tests/system/test_world.h"
 
@@ -47,6 +49,12 @@ class ServiceManager {
  private:
   int socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
 };
+
+std::string ReadFile(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
 
 /// A network that is not there.
 const std::vector<std::string> kNoNetwork = {
@@ -134,12 +142,51 @@ TEST(CommandLine, AFileThatCannotBeWrittenIsOneClearLine) {
   const Folder folder;
   const Outcome log =
       Collisiond({"--config", folder.Write("log.textproto", "log_file: \"/dev/null/log\"")});
-  EXPECT_EQ(log.status, 78);
+  EXPECT_EQ(log.status, 74);
   EXPECT_EQ(log.err.rfind("collisiond: log_file: ", 0), 0u) << log.err;
   const Outcome cache =
       Collisiond({"--config", folder.Write("c.textproto", "tree_cache_dir: \"/dev/null/trees\"")});
-  EXPECT_EQ(cache.status, 78);
+  EXPECT_EQ(cache.status, 74);
   EXPECT_EQ(cache.err, "collisiond: tree_cache_dir: /dev/null/trees: Not a directory\n");
+}
+
+// Goal:   with on_state_failure END a journal that cannot be kept, or is damaged, ends the service,
+//         with a line that names the file and what to do; nothing of the file is changed.
+TEST(CommandLine, WithEndAJournalThatFailsEndsTheService) {
+  const Folder folder;
+  const auto serve = [&folder](const std::string& state_dir) {
+    const std::string text = "state_dir: \"" + state_dir + "\"\non_state_failure: END";
+    return RunToEnd({Program("collisiond"), "--config", folder.Write("end.textproto", text)},
+                    kNoNetwork);
+  };
+  const std::string file = folder.Write("file", "not a folder");
+  const Outcome no_folder = serve(file);
+  EXPECT_EQ(no_folder.status, 74);
+  EXPECT_TRUE(Contains(no_folder.err, "collisiond: state_dir: " + file + ": cannot be made: "))
+      << no_folder.err;
+  const Outcome nowhere = serve("");
+  EXPECT_EQ(nowhere.status, 78);
+  EXPECT_TRUE(Contains(nowhere.err, "collisiond: on_state_failure: END needs a folder"));
+  const std::string journal = folder.Path("default.0.journal");
+  EXPECT_EQ(serve(folder.Path("")).status, 69) << "a new journal is fine";
+  const std::string whole = ReadFile(journal);
+  ASSERT_EQ(whole.size(), 128u);
+  std::string spoilt = whole;
+  spoilt[8] ^= 1;
+  for (const std::string& damaged : {spoilt, whole.substr(0, 100), std::string()}) {
+    folder.Write("default.0.journal", damaged);
+    const Outcome outcome = serve(folder.Path("."));
+    EXPECT_EQ(outcome.status, 74) << outcome.err;
+    EXPECT_TRUE(Contains(outcome.err, "default.0.journal: byte 0: ")) << outcome.err;
+    EXPECT_TRUE(Contains(outcome.err, "move the file away")) << outcome.err;
+    EXPECT_EQ(ReadFile(journal), damaged);
+  }
+  const Outcome gone_on =
+      RunToEnd({Program("collisiond"), "--config",
+                folder.Write("go_on.textproto", "state_dir: \"" + folder.Path("") + "\"")},
+               kNoNetwork);
+  EXPECT_EQ(gone_on.status, 69) << "only the network is missing";
+  EXPECT_TRUE(Contains(gone_on.err, "the file is empty")) << gone_on.err;
 }
 
 TEST(CommandLine, EndsCleanlyOnAStopSignal) {

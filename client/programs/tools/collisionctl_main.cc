@@ -217,7 +217,7 @@ int Main(int argc, char** argv) {
     const auto kind = evict->parsed() ? v1::OPERATOR_EVICT : v1::OPERATOR_RESTART_TIME;
     try {
       return RunOperatorRequest(options.monitor.world, options.monitor.domain, options.timeout_s,
-                                MakeCommand(kind, evicted));
+                                MakeCommand(kind, evicted), options.json);
     } catch (const std::runtime_error& error) {
       std::cerr << "collisionctl: " << error.what() << '\n';
       return kExitUnavailable;

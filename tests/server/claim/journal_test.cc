@@ -51,6 +51,24 @@ class JournalTest : public testing::Test {
   std::string folder_;
 };
 
+/// No file of this process can grow beyond a size while this lives: as on a full disk.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
 JournalledSimulator Simulator(std::uint64_t id, std::int64_t granted_ns) {
   return {.id = id,
           .run = static_cast<std::uint32_t>(id + 1),
@@ -130,7 +148,7 @@ TEST_F(JournalTest, ADamagedRecordIsToldAndTheOthersStay) {
     EXPECT_EQ(journal.term(), 3u);
     ASSERT_EQ(journal.damage().size(), 1u);
     EXPECT_EQ(journal.damage()[0], path() + ": byte " + std::to_string(record * kRecordBytes) +
-                                       ": a simulator does not fit its checksum and is left out");
+                                       ": a simulator does not fit its checksum");
     Spoil(byte);
   }
   EXPECT_EQ(Open().simulators().size(), 3u);
@@ -166,8 +184,7 @@ TEST_F(JournalTest, ADamagedTermIsToldAndTheRosterStays) {
   EXPECT_EQ(journal.term(), 0u);
   EXPECT_EQ(journal.simulators().size(), 1u);
   ASSERT_EQ(journal.damage().size(), 1u);
-  EXPECT_EQ(journal.damage()[0],
-            path() + ": byte 0: the term does not fit its checksum and is left out");
+  EXPECT_EQ(journal.damage()[0], path() + ": byte 0: the term does not fit its checksum");
 }
 
 TEST_F(JournalTest, ACutOffFileLosesItsLastRecordOnly) {
@@ -181,6 +198,88 @@ TEST_F(JournalTest, ACutOffFileLosesItsLastRecordOnly) {
   EXPECT_EQ(journal.simulators().size(), 2u);
   EXPECT_EQ(journal.damage().size(), 1u);
   EXPECT_TRUE(journal.Put(Simulator(2, 11)));
+}
+
+TEST_F(JournalTest, WhateverItIsCutToIsToldUnlessNothingWasLost) {
+  {
+    Journal journal = Open();
+    journal.SetTerm(3, 4);
+    for (std::uint64_t id = 0; id < 3; ++id) journal.Put(Simulator(id, 10));
+  }
+  const std::size_t whole = std::filesystem::file_size(path());
+  ASSERT_EQ(whole, 4 * kRecordBytes);
+  EXPECT_TRUE(Open().damage().empty());
+  for (std::size_t size = whole; size-- > 0;) {
+    std::filesystem::resize_file(path(), size);
+    if (size > 0 && size < 8) {
+      EXPECT_NE(ErrorOfOpening(), "") << size;  // Not even its first bytes are a journal's.
+      continue;
+    }
+    const Journal journal = Open();
+    EXPECT_FALSE(journal.damage().empty()) << size;
+    EXPECT_EQ(journal.simulators().size(), size < kRecordBytes ? 0 : size / kRecordBytes - 1);
+  }
+  const Journal journal = Open();
+  ASSERT_EQ(journal.damage().size(), 1u);
+  EXPECT_EQ(journal.damage()[0],
+            path() + ": byte 0: the file is empty: the term and all simulators are lost");
+}
+
+TEST_F(JournalTest, DamageIsOverOnceItsServiceServes) {
+  {
+    Journal journal = Open();
+    journal.SetTerm(3, 4);
+    for (std::uint64_t id = 0; id < 4; ++id) journal.Put(Simulator(id, 10));
+  }
+  Spoil(kRecordBytes);
+  Spoil(2 * kRecordBytes);
+  std::filesystem::resize_file(path(), 4 * kRecordBytes);
+  {
+    Journal journal = Open();
+    EXPECT_EQ(journal.damage().size(), 3u);
+    EXPECT_TRUE(journal.Put(Simulator(7, 10)));
+    EXPECT_TRUE(journal.SetTerm(4, 5));
+  }
+  const Journal journal = Open();
+  EXPECT_TRUE(journal.damage().empty());
+  EXPECT_EQ(journal.term(), 4u);
+  EXPECT_EQ(journal.simulators().size(), 2u);
+  EXPECT_TRUE(journal.simulators().contains(7));
+}
+
+// Goal:   with a smaller simulators_max none is lost in silence, nor comes back years later.
+TEST_F(JournalTest, SimulatorsBeyondASmallerMaximumAreToldOnce) {
+  {
+    Journal journal = Open();
+    journal.SetTerm(3, 4);
+    for (std::uint64_t id = 0; id < 3; ++id) journal.Put(Simulator(id, 10));
+    journal.Remove(2);
+  }
+  EXPECT_TRUE(Journal(folder_, "lab", 7, 2).damage().empty()) << "the third record is free";
+  {
+    Journal smaller(folder_, "lab", 7, 1);
+    EXPECT_EQ(smaller.simulators().size(), 1u);
+    ASSERT_EQ(smaller.damage().size(), 1u);
+    EXPECT_EQ(smaller.damage()[0],
+              path() + ": byte 256: simulators beyond simulators_max, which was larger: 1");
+    smaller.SetTerm(4, 5);
+  }
+  EXPECT_TRUE(Open().damage().empty());
+  EXPECT_EQ(Open().simulators().size(), 1u);
+}
+
+// Goal:   a journal whose first write fails leaves no empty file, which would count as damaged, and
+//         what a process left that was killed while it began one harms no later one.
+TEST_F(JournalTest, AnEmptyFileIsNeverLeftByABeginning) {
+  {
+    const FullDisk full(7);
+    EXPECT_EQ(ErrorOfOpening(), path() + ": byte 0: cannot be written: No space left on device");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  std::ofstream(path() + ".new") << std::string(1000, 'x');
+  EXPECT_TRUE(Open().damage().empty());
+  EXPECT_EQ(std::filesystem::file_size(path()), kRecordBytes);
+  EXPECT_FALSE(std::filesystem::exists(path() + ".new"));
 }
 
 TEST_F(JournalTest, WhatIsNoJournalIsLeftAlone) {
@@ -204,24 +303,6 @@ TEST_F(JournalTest, AFolderThatCannotBeMadeIsNamed) {
     EXPECT_EQ(std::string(error.what()).find(folder_ + "/file/state: cannot be made: "), 0u);
   }
 }
-
-/// No file of this process can grow beyond a size while this lives: as on a full disk.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
 
 TEST_F(JournalTest, AFullDiskIsToldAndWhatWasWrittenStays) {
   {

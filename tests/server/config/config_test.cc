@@ -192,7 +192,7 @@ TEST(Config, TellsAllErrorsWithTheirLines) {
       "log_file: \"abc\n"
       "status_period_s: inf\n";
   const std::vector<std::string> expected = {
-      "1: world: ",           "2: nosuch: ",          "4: clock.kind: ", "5: bogus: ",
+      "1: world: ",           "2: nosuch: ",          "4: clock.kind: ", "5: clock.bogus: ",
       "6: clock.simulators_", "8: agents_max: ",      "9: pairs_max: ",  "11: domain: ",
       "12: log_file: ",       "13: status_period_s: "};
   const std::vector<std::string> errors = ParseConfig(text, "a/F.textproto").errors;
@@ -201,6 +201,58 @@ TEST(Config, TellsAllErrorsWithTheirLines) {
     EXPECT_TRUE(errors[i].starts_with("a/F.textproto:" + expected[i])) << errors[i];
     EXPECT_EQ(errors[i].find(".;"), std::string::npos) << errors[i];
   }
+}
+
+// Goal:   within `clock` errors are as good as outside, and none hides another: each names the
+//         path of its field, the line, and what is allowed, however the text is broken into lines.
+TEST(Config, TellsAllErrorsWithinClock) {
+  const std::vector<std::string> fields = {"on_silent_simulator: NONE",
+                                           "skew_max_s: \"wide\"",
+                                           "waiting_after_s: 1",
+                                           "bogus: 7",
+                                           "waiting_after_s: 2",
+                                           "simulators_awaited:",
+                                           "log_level: 3",
+                                           "grant_ahead_max_s: 0",
+                                           "first_clock_max_s { }",
+                                           "kind: 7"};
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {"clock.on_silent_simulator: ", "; allowed: WAIT or RELEASE"},
+      {"clock.skew_max_s: ", "; allowed: 0 to 60"},
+      {"clock.bogus: ", "no field named \"bogus\""},
+      {"clock.waiting_after_s: ", "; allowed: 0.1 to 86400"},
+      {"clock.simulators_awaited: ", "; allowed: 1 to 1024"},
+      {"clock.log_level: ", "; meant is log_level?"},
+      {"clock.grant_ahead_max_s: ", "; allowed: 0.000001 to 86400 [s]"},
+      {"clock.first_clock_max_s: ", "; allowed: 0 to 4000000000"},
+      {"clock.kind: ", "; allowed: SIMULATED or WALL"},
+      {"domain: ", "; allowed: 0 to 230"}};
+  const std::vector<int> lines = {1, 2, 4, 5, 6, 7, 8, 9, 10, 11};
+  for (const char* separator : {" ", "\n", "\n\t", " # what for\n"}) {
+    std::string text = "clock { ";
+    for (const std::string& field : fields) text += field + separator;
+    text += "} domain: 231";
+    const std::vector<std::string> errors = ParseConfig(text, "F").errors;
+    ASSERT_EQ(errors.size(), expected.size()) << text;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      const int line = separator[0] == ' ' && separator[1] == 0 ? 1 : lines[i];
+      EXPECT_TRUE(errors[i].starts_with("F:" + std::to_string(line) + ": " + expected[i].first))
+          << errors[i];
+      EXPECT_TRUE(errors[i].ends_with(expected[i].second)) << errors[i];
+    }
+  }
+}
+
+// Goal:   a field outside its place is told where it belongs; a second block is told, too.
+TEST(Config, MisplacedAndDoubledBlocksAreNamed) {
+  const auto first = [](const std::string& text) {
+    const ConfigResult result = ParseConfig(text, "F");
+    return result.errors.size() == 1 ? result.errors[0] : "not one error";
+  };
+  EXPECT_TRUE(first("kind: WALL").ends_with("; meant is clock.kind?")) << first("kind: WALL");
+  EXPECT_TRUE(first("clock { }\nclock { kind: 7 }").starts_with("F:2: clock: "));
+  EXPECT_TRUE(first("clock: 5\ndomain: 3").starts_with("F:1: clock: "));
+  EXPECT_TRUE(first("clock { kind:\n}").starts_with("F:1: clock.kind: "));
 }
 
 // Goal:   fields that contradict each other are refused at the line of the one that is set, and
@@ -219,7 +271,15 @@ TEST(Config, ContradictingFieldsAreRefused) {
       {"clock { kind: WALL skew_max_s: 1e-6 }", ""},
       {"clock { release_after_s: 6 }", "F:1: clock.release_after_s: "},
       {"clock { release_after_s: 5 }", ""},
-      {"clock { release_after_s: 6 on_silent_simulator: RELEASE }", ""}};
+      {"clock { release_after_s: 6 on_silent_simulator: RELEASE }", ""},
+      {"clock { kind: WALL on_silent_simulator: RELEASE }", "F:1: clock.on_silent_simulator: "},
+      {"clock { kind: WALL first_clock_max_s: 1 }", "F:1: clock.first_clock_max_s: "},
+      {"clock { kind: WALL shape_wait_max_s: 1 }", "F:1: clock.shape_wait_max_s: "},
+      {"clock {\n kind: WALL\n waiting_after_s: 1 }", "F:3: clock.waiting_after_s: "},
+      {"clock { kind: WALL waiting_after_s: 5 on_silent_simulator: WAIT }", ""},
+      {"clock { wait_for_synchronisation_s: 1 }", "F:1: clock.wait_for_synchronisation_s: "},
+      {"clock { wait_for_synchronisation_s: 0 }", ""},
+      {"clock { kind: WALL wait_for_synchronisation_s: 1 }", ""}};
   for (const auto& [text, error] : cases) {
     const ConfigResult result = ParseConfig(text, "F");
     const std::string first = result.ok() ? "" : result.errors[0];
@@ -236,6 +296,8 @@ std::string RandomValue(const ConfigOption& option, Random& random) {
   if (option.path == "clock.kind") return random.Chance(0.5) ? "WALL" : "SIMULATED";
   if (option.path == "broad_phase") return random.Chance(0.5) ? "AUTO" : "ALL_PAIRS";
   if (option.path == "tree_builder") return random.Chance(0.5) ? "MEDIAN_SPLIT" : "FITTED";
+  const bool needs_others = !option.only_with.empty() || option.path == "clock.release_after_s";
+  if (needs_others && random.Chance(0.9)) return std::string(option.value);
   if (option.path == "on_state_failure") return random.Chance(0.5) ? "GO_ON" : "END";
   if (option.least.empty()) return "RELEASE";
   const double least = std::max(std::stod(std::string(option.least)), 1e-6);

@@ -84,7 +84,10 @@ TEST(OperatorCommands, RestartTimeBeginsANewEpochForEveryone) {
   daemon.Step({From(1, ClockAfter("alpha", 16'000'000, 2, 2))}, 0.01);
   ASSERT_EQ(daemon.status().now_ns(), 16'000'000);
   const std::string answer = AnswerTo(&daemon, Command(7, v1::OPERATOR_RESTART_TIME));
-  EXPECT_TRUE(answer.starts_with("done: ")) << answer;
+  EXPECT_EQ(answer,
+            "done: the world's time begins anew with the next first clock; simulators that were in "
+            "it, each welcome again with a higher run: 1; others, which had told no clock and go "
+            "on: 0");
   EXPECT_EQ(daemon.status().stamp().epoch(), 2u);
   EXPECT_EQ(daemon.status().agents(), 0u);
   // The run of before must not drag its clock into the new time.
@@ -95,6 +98,18 @@ TEST(OperatorCommands, RestartTimeBeginsANewEpochForEveryone) {
   daemon.Step({From(1, Description("alpha", 0, 2)), From(1, clock)}, 0.01);
   EXPECT_EQ(daemon.status().now_ns(), 1'000'000);
   EXPECT_EQ(daemon.status().stamp().epoch(), 2u);
+}
+
+TEST(OperatorCommands, RestartTimeCountsSimulatorsWithoutAClockApart) {
+  ScriptedDaemon daemon(Simulated());
+  daemon.Step({From(1, Description("alpha", 0)), From(2, Description("beta", 0))}, 0.01);
+  const std::string answer = AnswerTo(&daemon, Command(7, v1::OPERATOR_RESTART_TIME));
+  EXPECT_TRUE(
+      answer.ends_with("with a higher run: 0; others, which had told no clock and go on: 2"))
+      << answer;
+  EXPECT_EQ(daemon.status().simulators_size(), 2) << "they go on";
+  daemon.Step({From(1, ClockAfter("alpha", 16'000'000, 0, 1))}, 0.01);
+  ASSERT_TRUE(daemon.rejections().empty()) << "under the run that they have";
 }
 
 TEST(OperatorCommands, AWallClockCannotBeRestarted) {

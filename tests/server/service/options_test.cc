@@ -75,7 +75,7 @@ TEST(Options, HelpExplainsOptionsAndExitCodes) {
   for (const char* part :
        {"--config FILE", "--check-config", "--print-config", "--calibrate", "--version", "--domain",
         "--log-level", "--record FILE", "--replay FILE", "Examples:", "\n   0  ", "\n   2  ",
-        "\n  69  ", "\n  70  ", "\n  71  ", "\n  74  ", "\n  78  "}) {
+        "\n  69  ", "\n  70  ", "\n  71  ", "\n  74  ", "\n  75  ", "\n  78  "}) {
     EXPECT_NE(help.output.find(part), std::string::npos) << part;
   }
   const OptionsResult version = Parse({"--version"});

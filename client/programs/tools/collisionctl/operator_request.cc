@@ -1,5 +1,7 @@
 #include "client/programs/tools/collisionctl/operator_request.h"
 
+#include <google/protobuf/struct.pb.h>
+
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -7,11 +9,13 @@
 
 #include "client/library/network/dds_transport.h"
 #include "client/programs/shared/exit_code.h"
+#include "client/programs/tools/collisionctl/json_pages.h"
 
 namespace collision::client {
 namespace {
 
 constexpr char kDone[] = "done: ";
+constexpr char kRefused[] = "refused: ";
 
 }  // namespace
 
@@ -63,16 +67,31 @@ RequestResult Request(Transport* transport, const v1::OperatorCommand& command,
   return result;
 }
 
+std::string ResultJson(const RequestResult& result) {
+  const bool done = result.outcome == RequestOutcome::kDone;
+  const std::string& answer = result.answer;
+  const std::string prefix = done ? kDone : kRefused;
+  google::protobuf::Value text;  // Adds quotes and escapes.
+  text.set_string_value(answer.starts_with(prefix) ? answer.substr(prefix.size()) : answer);
+  return std::string("{\"done\":") + (done ? "true" : "false") +
+         ",\"answer\":" + (answer.empty() ? "null" : Json(text)) + "}";
+}
+
 int RunOperatorRequest(const std::string& world, std::uint32_t domain, double timeout_s,
-                       const v1::OperatorCommand& command) {
+                       const v1::OperatorCommand& command, bool json) {
   const auto transport = ConnectOperator(world, domain);
   const std::chrono::duration<double> timeout(timeout_s);
   const Deadline deadline(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
   const RequestResult result = Request(transport.get(), command, deadline);
+  if (json && result.outcome != RequestOutcome::kNoService) {
+    std::cout << ResultJson(result) << std::endl;
+  }
   switch (result.outcome) {
     case RequestOutcome::kDone:
-      std::cout << result.answer << std::endl;
-      return kExitOk;
+      if (!json) std::cout << result.answer << std::endl;
+      if (std::cout) return kExitOk;
+      std::cerr << "collisionctl: the output cannot be written\n";
+      return kExitOutputFailed;
     case RequestOutcome::kRefused:
       std::cerr << "collisionctl: " << result.answer << '\n';
       return kExitRefused;

@@ -33,9 +33,14 @@ RequestResult Request(Transport* transport, const v1::OperatorCommand& command,
 std::optional<std::string> AnswerIn(const v1::ServiceStatus& status,
                                     const v1::OperatorCommand& command);
 
+/// {"done": whether the service obeyed, "answer": its words, without "done: " or "refused: "; null:
+/// it has not answered}. One line, without a newline.
+std::string ResultJson(const RequestResult& result);
+
 /// Connects, requests, and prints the answer: to standard output, or the reason of a failure to
-/// standard error. Returns the exit code. Throws std::runtime_error if DDS is not available.
+/// standard error. With `json` the result of a request that was made goes to standard output, too,
+/// whatever it is. Returns the exit code. Throws std::runtime_error if DDS is not available.
 int RunOperatorRequest(const std::string& world, std::uint32_t domain, double timeout_s,
-                       const v1::OperatorCommand& command);
+                       const v1::OperatorCommand& command, bool json);
 
 }  // namespace collision::client

@@ -84,5 +84,14 @@ TEST(OperatorRequest, EachCommandHasAnIdOfItsOwn) {
   EXPECT_EQ(ids.size(), 100u);
 }
 
+// Goal:   a program learns whether it was obeyed, and why not, whatever the words are.
+TEST(OperatorJson, TellsDoneFromRefusedAndFromSilence) {
+  EXPECT_EQ(ResultJson({RequestOutcome::kDone, "done: simulator \"beta\" is removed"}),
+            R"({"done":true,"answer":"simulator \"beta\" is removed"})");
+  EXPECT_EQ(ResultJson({RequestOutcome::kRefused, "refused: no simulator"}),
+            R"({"done":false,"answer":"no simulator"})");
+  EXPECT_EQ(ResultJson({RequestOutcome::kNoAnswer, ""}), R"({"done":false,"answer":null})");
+}
+
 }  // namespace
 }  // namespace collision::client
