@@ -9,6 +9,7 @@
 #include "idl/limits.h"
 #include "server/process/version.h"
 #include "server/publish/names_text.h"
+#include "server/publish/wait_text.h"
 
 namespace collision::server {
 namespace {
@@ -128,6 +129,35 @@ void AddExtension(const std::string& key, std::string value, v1::ServiceStatus* 
   extension.set_value(std::move(value));
 }
 
+void AddNames(const std::string& key, const std::vector<std::string>& names,
+              v1::ServiceStatus* status) {
+  if (!names.empty()) AddExtension(key, NamesText(names, wire::kExtensionValueMax), status);
+}
+
+/// Whom the world's time waits for: the names for programs, and for people why and how long.
+void AddWaiting(const StatusSources& sources, v1::ServiceStatus* status) {
+  std::vector<std::string> names = sources.world.WaitedFor();
+  std::vector<std::string> reasons;
+  for (const Awaited& one : sources.world.Waited()) reasons.push_back(WaitText(one, sources.world));
+  for (const std::string& shape : sources.intake.AwaitedShapes()) {
+    names.push_back(shape);
+    reasons.push_back(shape + ": not there yet, or its tree is being built");
+  }
+  AddNames("waiting_for", names, status);
+  AddNames("waiting_why", reasons, status);
+}
+
+/// Simulators that an operator removed and that have not come back.
+void AddEvicted(const World& world, v1::ServiceStatus* status) {
+  std::vector<std::string> names;
+  for (const auto& [id, simulator] : world.simulators()) {
+    if (world.ended_runs().Find(id, simulator.run()) == EndCause::kEvicted) {
+      names.push_back(simulator.name());
+    }
+  }
+  AddNames("evicted", names, status);
+}
+
 }  // namespace
 
 v1::ServiceStatus MakeStatus(const StatusSources& sources) {
@@ -159,11 +189,8 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   if (!sources.steps.last_clock_step.empty()) {
     AddExtension("clock_step", sources.steps.last_clock_step, &status);
   }
-  std::vector<std::string> names = sources.world.WaitedFor();
-  for (std::string& shape : sources.intake.AwaitedShapes()) names.push_back(std::move(shape));
-  if (!names.empty()) {
-    AddExtension("waiting_for", NamesText(names, wire::kExtensionValueMax), &status);
-  }
+  AddWaiting(sources, &status);
+  AddEvicted(sources.world, &status);
   for (const v1::KeyValue& extension : sources.extensions) *status.add_extensions() = extension;
   return status;
 }

@@ -388,7 +388,7 @@ class Daemon::Implementation {
   StatusSchedule schedule_;
   Rate query_rate_;
   StepCounters steps_;
-  SilenceReport silence_report_;
+  SilenceReport silence_report_{config_.clock().on_silent_simulator() == v1::Clock::RELEASE};
   std::optional<ClockStep> clock_step_;  ///< Of this step.
   std::optional<Instant> advanced_to_;
   bool batch_was_full_ = false;

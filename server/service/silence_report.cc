@@ -7,13 +7,20 @@
 
 namespace collision::server {
 
+SilenceReport::SilenceReport(bool releases)
+    : silent_(
+          "world time waits for simulator {}: it is not heard: its process has ended, or stands "
+          "still; start it again or let it go on, or evict it with collisionctl evict" +
+          std::string(releases ? "; clock.release_after_s ends the waiting"
+                               : " (or set clock.on_silent_simulator to RELEASE)")) {}
+
 bool SilenceReport::TakeWaited(const std::vector<Awaited>& waited) {
   if (waited == waited_) return false;
   for (const Awaited& one : waited) {
     if (std::find(waited_.begin(), waited_.end(), one) != waited_.end()) continue;
     switch (one.reason) {
       case WaitReason::kEnded:
-        ended_.Add(one.name);
+        silent_.Add(one.name);
         break;
       case WaitReason::kStands:
         stands_.Add(one.name);
@@ -38,7 +45,7 @@ void SilenceReport::AddRemoved(const std::string& name) {
 }
 
 void SilenceReport::Write(std::int64_t monotonic_ns) {
-  for (NamesLog* log : {&ended_, &stands_, &missing_, &releases_, &removals_}) {
+  for (NamesLog* log : {&silent_, &stands_, &missing_, &releases_, &removals_}) {
     log->Write(monotonic_ns);
   }
 }

@@ -15,6 +15,9 @@ namespace collision::server {
 /// line a second of each kind. One thread.
 class SilenceReport {
  public:
+  /// `releases`: clock.on_silent_simulator is RELEASE.
+  explicit SilenceReport(bool releases);
+
   /// Takes note of whom the world waits for now. True: that has changed.
   bool TakeWaited(const std::vector<Awaited>& waited);
 
@@ -32,9 +35,7 @@ class SilenceReport {
  private:
   std::vector<Awaited> waited_;       ///< Logged already.
   std::vector<std::string> removed_;  ///< Newest first; at most kRemovedShownMax.
-  NamesLog ended_{
-      "world time waits for simulator {}: its process has ended; start it again, or evict it with "
-      "collisionctl evict (or set clock.on_silent_simulator to RELEASE)"};
+  NamesLog silent_;
   NamesLog stands_{
       "world time waits for simulator {}: it was granted time and does not move (see "
       "clock.waiting_after_s); let it go on, or evict it with collisionctl evict"};

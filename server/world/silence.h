@@ -15,7 +15,7 @@
 namespace collision::server {
 
 enum class WaitReason {
-  kEnded,   ///< Its process has ended, and its agents are there.
+  kEnded,   ///< It is not heard: its process has ended, or stands still; its agents are there.
   kStands,  ///< It was granted time, lives, and tells nothing new.
   kMissing  ///< A service before this one served it, and it has not come back.
 };

@@ -23,7 +23,8 @@ TEST(SilenceOfPrograms, AGhostIsShownAndCanBeEvicted) {
   EXPECT_TRUE(world.MonitorComesToSay({"status", "--json"}, "\"left-sim\"")) << daemon->err();
   left->Signal(SIGKILL);
   ASSERT_EQ(left->WaitForExit(), 128 + SIGKILL);
-  ASSERT_TRUE(world.MonitorComesToSay({"agents"}, ", gone")) << daemon->err();
+  ASSERT_TRUE(world.MonitorComesToSay({"agents"}, "held: its simulator is not heard"))
+      << daemon->err();
   const Outcome agents = world.Monitor({"agents"});
   EXPECT_TRUE(Contains(agents.out, "left-sim:0.1")) << agents.out;
   const Outcome wrong = world.Monitor({"evict", "nobody"});

@@ -24,11 +24,34 @@ std::uint32_t NumberAt(const std::string& bytes, std::size_t at) {
   return number;
 }
 
+/// Whether a list of names in the status, separated by a comma and a blank, has this one.
+bool Names(const v1::ServiceStatus& status, const std::string& key, const std::string& name) {
+  for (const v1::KeyValue& extension : status.extensions()) {
+    if (extension.key() != key) continue;
+    if ((", " + extension.value() + ",").find(", " + name + ",") != std::string::npos) return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+bool IsHeld(const AgentView& agent) {
+  return agent.presence == AgentPresence::kHeld || agent.presence == AgentPresence::kSilent ||
+         agent.presence == AgentPresence::kWaitedFor;
+}
 
 MessageMonitor::Callbacks WorldView::Callbacks() {
   MessageMonitor::Callbacks callbacks;
-  callbacks.status = [this](const v1::ServiceStatus& status) { status_ = status; };
+  callbacks.status = [this](const v1::ServiceStatus& status) {
+    status_ = status;
+    for (const v1::SimulatorStatus& simulator : status.simulators()) {
+      KeepSimulatorName(simulator.simulator_id(), simulator.name());
+    }
+  };
+  // A report outlives its simulator: it names what has left before this monitor came.
+  callbacks.report = [this](const v1::SimulatorReport& report) {
+    KeepSimulatorName(report.simulator_id(), report.name());
+  };
   callbacks.earliest = [this](const v1::EarliestIntersection& earliest) { earliest_ = earliest; };
   callbacks.event = [this](const v1::CollisionEvent& event) {
     events_.push_back(event);
@@ -61,8 +84,7 @@ std::vector<AgentView> WorldView::Agents() const {
     };
     take(states_, &agent.state);
     take(clearances_, &agent.clearance);
-    const v1::SimulatorStatus* status = StatusOf(entry.first.first);
-    agent.gone = status != nullptr && !status->alive() && status->run() == description.run();
+    agent.presence = PresenceOf(description);
   }
   for (const auto& [key, clearance] : clearances_) {
     if (!IsHeldOnly(key.first, key.second, clearance.first)) continue;
@@ -73,6 +95,46 @@ std::vector<AgentView> WorldView::Agents() const {
            Key(b.description.simulator_id(), b.description.slot());
   });
   return agents;
+}
+
+std::vector<UnknownAgents> WorldView::Unknown() const {
+  std::vector<UnknownAgents> unknown;
+  if (!status_) return unknown;
+  std::map<std::uint64_t, std::size_t> known;
+  for (const AgentView& agent : Agents()) {
+    if (IsHeld(agent)) ++known[agent.description.simulator_id()];
+  }
+  for (const v1::SimulatorStatus& simulator : status_->simulators()) {
+    const std::size_t listed = known[simulator.simulator_id()];
+    if (simulator.alive() || simulator.agents() <= listed) continue;
+    unknown.push_back({simulator.name(), simulator.agents() - listed});
+  }
+  return unknown;
+}
+
+AgentPresence WorldView::PresenceOf(const v1::AgentDescription& description) const {
+  if (!status_) return AgentPresence::kHeld;
+  const v1::SimulatorStatus* status = StatusOf(description.simulator_id());
+  if (status != nullptr) {
+    if (status->run() > description.run()) return AgentPresence::kNotHeld;
+    // A higher run than the service knows is on its way to it.
+    const bool silent = !status->alive() && status->run() == description.run();
+    return silent ? SilentPresence(status->name()) : AgentPresence::kHeld;
+  }
+  const std::string& name = description.simulator_name();
+  if (Names(*status_, "evicted", name)) return AgentPresence::kEvicted;
+  if (Names(*status_, "removed_silent", name)) return AgentPresence::kRemovedSilent;
+  // A status names only so many simulators.
+  for (const v1::Counter& counter : status_->counters()) {
+    const bool is_unlisted = counter.name() == "simulators_unlisted" && counter.value() > 0;
+    if (is_unlisted) return AgentPresence::kHeld;
+  }
+  return AgentPresence::kNotHeld;
+}
+
+AgentPresence WorldView::SilentPresence(const std::string& simulator) const {
+  const bool waited_for = Names(*status_, "waiting_for", simulator);
+  return waited_for ? AgentPresence::kWaitedFor : AgentPresence::kSilent;
 }
 
 const v1::SimulatorStatus* WorldView::StatusOf(std::uint64_t simulator) const {
@@ -99,7 +161,10 @@ bool WorldView::IsHeldOnly(std::uint64_t simulator, std::uint32_t slot, std::uin
 
 AgentView WorldView::HeldOnly(std::uint64_t simulator, std::uint32_t run,
                               const v1::AgentClearance& clearance) const {
-  AgentView agent{.gone = true, .description = {}, .state = {}, .clearance = clearance};
+  AgentView agent{.presence = SilentPresence(SimulatorName(simulator)),
+                  .description = {},
+                  .state = {},
+                  .clearance = clearance};
   agent.description.set_simulator_id(simulator);
   agent.description.set_simulator_name(SimulatorName(simulator));
   agent.description.set_run(run);
@@ -123,7 +188,12 @@ std::vector<ShapeView> WorldView::Shapes() const {
   return shapes;
 }
 
-bool WorldView::knows_all_agents() const { return status_ && Agents().size() >= status_->agents(); }
+bool WorldView::knows_all_agents() const {
+  if (!status_) return false;
+  const std::vector<AgentView> agents = Agents();
+  const auto held = std::count_if(agents.begin(), agents.end(), IsHeld);
+  return static_cast<std::size_t>(held) >= status_->agents();
+}
 
 std::string WorldView::Name(const AgentId& id) const {
   const auto found = names_.find(id);
@@ -155,7 +225,14 @@ std::vector<v1::CollisionEvent> WorldView::TakeNewestRevisions() {
   return newest;
 }
 
+void WorldView::KeepSimulatorName(std::uint64_t id, const std::string& name) {
+  if (!name.empty() && simulator_names_.size() < kSimulatorNamesMax) {
+    simulator_names_.try_emplace(id, name);
+  }
+}
+
 void WorldView::Handle(const v1::AgentDescription& description) {
+  KeepSimulatorName(description.simulator_id(), description.simulator_name());
   names_.try_emplace(
       {description.simulator_id(), description.run(), description.slot(), description.generation()},
       description.agent_name());
@@ -213,11 +290,10 @@ void WorldView::Handle(const v1::Clearance& clearance) {
 }
 
 std::string WorldView::SimulatorName(std::uint64_t id) const {
-  if (status_) {
-    for (const v1::SimulatorStatus& simulator : status_->simulators()) {
-      if (simulator.simulator_id() == id && !simulator.name().empty()) return simulator.name();
-    }
-  }
+  const v1::SimulatorStatus* status = StatusOf(id);
+  if (status != nullptr && !status->name().empty()) return status->name();
+  const auto kept = simulator_names_.find(id);
+  if (kept != simulator_names_.end()) return kept->second;
   char text[20];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(id));
   return text;

@@ -13,15 +13,34 @@
 
 namespace collision::client {
 
+/// Whether the service holds an agent, as its newest status says, and why not, or why nothing more
+/// is told of it: the bounds of an agent whose simulator is not heard only grow.
+enum class AgentPresence {
+  kHeld,
+  kSilent,         ///< Held; its simulator is not heard.
+  kWaitedFor,      ///< Likewise, and the world's time waits for its simulator.
+  kNotHeld,        ///< Described, but the service knows no such run of its simulator.
+  kEvicted,        ///< Not held: an operator removed its simulator.
+  kRemovedSilent,  ///< Not held: its simulator was silent for too long.
+};
+
+/// Agents that the service holds of a simulator that is not heard, of which nothing has come.
+struct UnknownAgents {
+  std::string simulator;
+  std::size_t agents = 0;
+};
+
 /// One agent, as far as it is known.
 struct AgentView {
-  /// The service holds it although its process has ended: its bounds grow. Of one that was never
-  /// described to this monitor the description holds no more than its identity.
-  bool gone = false;
+  AgentPresence presence = AgentPresence::kHeld;
+  /// Of one that was never described to this monitor: no more than its identity.
   v1::AgentDescription description;
   std::optional<v1::AgentState> state;
   std::optional<v1::AgentClearance> clearance;
 };
+
+/// Whether the service holds it, so that it counts for others.
+bool IsHeld(const AgentView& agent);
 
 /// One shape of one simulator, as far as its parts have arrived.
 struct ShapeView {
@@ -43,6 +62,8 @@ class WorldView {
  public:
   /// Maximum number of names; beyond it those of the lowest simulator and run are dropped.
   static constexpr std::size_t kNamesMax = 1'000'000;
+  /// Maximum number of names of simulators; beyond it no further one is kept.
+  static constexpr std::size_t kSimulatorNamesMax = 65536;
 
   WorldView() = default;
   WorldView(const WorldView&) = delete;
@@ -57,6 +78,10 @@ class WorldView {
   /// and slot.
   std::vector<AgentView> Agents() const;
 
+  /// How many more the service holds of each simulator that is not heard: a simulator that was
+  /// granted nothing has no clearances, and so its agents have no identity.
+  std::vector<UnknownAgents> Unknown() const;
+
   /// All shapes, by simulator and hash.
   std::vector<ShapeView> Shapes() const;
 
@@ -64,7 +89,7 @@ class WorldView {
   bool knows_all_agents() const;
 
   /// The agent's name as it was first described, also after it or its simulator has left;
-  /// "simulator:slot" if it was never described.
+  /// "simulator:slot" if it was never described. A simulator keeps its name likewise.
   std::string Name(const AgentId& id) const;
   bool IsNamed(const AgentId& id) const;
 
@@ -85,7 +110,10 @@ class WorldView {
   void Handle(const v1::ShapePart& part);
   void Handle(const v1::AgentStates& states);
   void Handle(const v1::Clearance& clearance);
+  void KeepSimulatorName(std::uint64_t id, const std::string& name);
   std::string SimulatorName(std::uint64_t id) const;
+  AgentPresence PresenceOf(const v1::AgentDescription& description) const;
+  AgentPresence SilentPresence(const std::string& simulator) const;
   const v1::SimulatorStatus* StatusOf(std::uint64_t simulator) const;
   bool IsHeldOnly(std::uint64_t simulator, std::uint32_t slot, std::uint32_t run) const;
   AgentView HeldOnly(std::uint64_t simulator, std::uint32_t run,
@@ -95,6 +123,7 @@ class WorldView {
   std::optional<v1::EarliestIntersection> earliest_;
   std::map<Key, v1::AgentDescription> descriptions_;
   std::map<AgentId, std::string> names_;                            ///< Also of agents that left.
+  std::map<std::uint64_t, std::string> simulator_names_;            ///< Likewise, by id.
   std::map<Key, std::pair<std::uint32_t, v1::AgentState>> states_;  ///< With their run.
   std::map<Key, std::pair<std::uint32_t, v1::AgentClearance>> clearances_;  ///< With their run.
   std::map<Key, v1::ServiceStamp> clearance_stamps_;                   ///< By simulator and chunk.

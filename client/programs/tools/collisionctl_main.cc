@@ -13,6 +13,7 @@
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/json_pages.h"
 #include "client/programs/tools/collisionctl/operator_request.h"
+#include "client/programs/tools/collisionctl/service_notes.h"
 #include "client/programs/tools/collisionctl/text_pages.h"
 #include "client/programs/tools/sphere_tree/command.h"
 #include "idl/limits.h"
@@ -96,15 +97,14 @@ void PrintGap(std::uint64_t missed, std::uint64_t* told, bool json) {
 
 void Follow(MessageMonitor* monitor, WorldView* view, bool json) {
   PendingNames pending;
-  bool alive = true;
+  ServiceNotes notes;
   std::uint64_t missed = 0;
   while (stopped == 0 && std::cout) {
     PrintGap(monitor->contacts_missed(), &missed, json);
     PrintNewEvents(view, &pending, json);
     monitor->Poll(kFollowWait);
-    if (monitor->service_alive() == alive) continue;
-    alive = !alive;
-    std::cerr << (alive ? "the service is back\n" : "the service is gone; waiting for it\n");
+    const auto note = notes.Take(monitor->service_alive(), view->status());
+    if (note) std::cerr << *note << '\n';
   }
   std::cerr << ContactsSummary(view->contacts(), monitor->contacts_missed()) << '\n';
 }

@@ -89,6 +89,8 @@ TEST(Daemon, NamesTheDeadThatHoldUpTheWorld) {
   text << std::ifstream(path).rdbuf();
   std::remove(path.c_str());
   const std::string log = text.str();
+  EXPECT_NE(log.find("it is not heard: its process has ended, or stands still"), std::string::npos);
+  EXPECT_EQ(log.find("(or set clock.on_silent_simulator"), std::string::npos) << "it is RELEASE";
   for (const char* line : {"waits for simulator \"alpha\"", "waits for simulator \"beta\"",
                            "goes on without simulator"}) {
     EXPECT_NE(log.find(line), std::string::npos) << log;

@@ -117,6 +117,8 @@ TEST_F(RosterOfDaemonTest, AfterARestartNobodyIsGrantedTimeBeforeAllAreBack) {
   for (int i = 0; i < 100; ++i) daemon_->Step({Told("alpha", alpha_ns_)[2]}, 60);
   EXPECT_FALSE(has_granted());
   EXPECT_EQ(Extension(daemon_->status(), "waiting_for"), "beta");
+  EXPECT_EQ(Extension(daemon_->status(), "waiting_why"),
+            "beta: not back since the service started again");
   daemon_->Step(Told("beta", alpha_ns_), 0.01);
   EXPECT_EQ(Extension(daemon_->status(), "waiting_for"), "");
   const v1::Clearance clearance = daemon_->clearance(SimulatorId("alpha"));

@@ -94,6 +94,28 @@ TEST_F(SilenceTest, ALiveSimulatorThatStandsIsNamedAndWaitedFor) {
   EXPECT_EQ(now_ns(), kTenth);
 }
 
+TEST_F(SilenceTest, TheStatusTellsWhyTheWorldWaitsAndWhoIsEvicted) {
+  const auto told = [&](const char* key) { return Extension(daemon_.status(), key); };
+  daemon_.Step(Told("alpha", kTenth), 0.01);
+  EXPECT_EQ(told("waiting_why"), "");
+  daemon_.Step({}, 3.5);
+  EXPECT_EQ(told("waiting_why"), "beta: was granted time and does not move");
+  daemon_.Step({Liveliness(2, "beta", false)}, 0.01);
+  daemon_.Step({}, 7.5);
+  EXPECT_EQ(told("waiting_why"), "beta: not heard for more than 8 s");
+  EXPECT_EQ(told("evicted"), "");
+  v1::Input evict;
+  evict.mutable_operator_command()->set_command_id(1);
+  evict.mutable_operator_command()->set_kind(v1::OPERATOR_EVICT);
+  evict.mutable_operator_command()->set_simulator("beta");
+  daemon_.Step({evict}, 0.01);
+  daemon_.Step({}, 1.5);
+  EXPECT_EQ(told("waiting_why"), "");
+  EXPECT_EQ(told("evicted"), "beta");
+  daemon_.Step(Told("beta", kTenth, 2), 1.5);
+  EXPECT_EQ(told("evicted"), "") << "it is back";
+}
+
 TEST_F(SilenceTest, WhoTellsAnythingIsNotNamedAndARepeatedClockTellsNothing) {
   daemon_.Step(Told("alpha", kTenth), 0.01);
   for (int i = 0; i < 10; ++i) {

@@ -8,6 +8,27 @@
 #include "client/api/shape.h"
 
 namespace collision::client {
+namespace {
+
+const char* NameOf(AgentPresence presence) {
+  switch (presence) {
+    case AgentPresence::kHeld:
+      return "held";
+    case AgentPresence::kSilent:
+      return "silent";
+    case AgentPresence::kWaitedFor:
+      return "waited_for";
+    case AgentPresence::kNotHeld:
+      return "not_held";
+    case AgentPresence::kEvicted:
+      return "evicted";
+    case AgentPresence::kRemovedSilent:
+      return "removed_silent";
+  }
+  return "held";
+}
+
+}  // namespace
 
 std::string Json(const google::protobuf::Message& message) {
   google::protobuf::util::JsonPrintOptions options;
@@ -30,10 +51,21 @@ std::string AgentsJson(const WorldView& view) {
     json += std::exchange(separator, ",") + ("{\"description\":" + Json(agent.description));
     if (agent.state) json += ",\"state\":" + Json(*agent.state);
     if (agent.clearance) json += ",\"clearance\":" + Json(*agent.clearance);
-    if (agent.gone) json += ",\"gone\":true";
+    if (agent.presence != AgentPresence::kHeld) {
+      json += ",\"presence\":\"" + std::string(NameOf(agent.presence)) + "\"";
+    }
     json += "}";
   }
-  return json + "]}";
+  json += "]";
+  const std::vector<UnknownAgents> all_unknown = view.Unknown();
+  separator = ",\"unknown\":[";
+  for (const UnknownAgents& unknown : all_unknown) {
+    google::protobuf::Value name;  // Adds quotes and escapes.
+    name.set_string_value(unknown.simulator);
+    json += std::exchange(separator, ",");
+    json += "{\"simulator\":" + Json(name) + ",\"agents\":" + std::to_string(unknown.agents) + "}";
+  }
+  return json + (all_unknown.empty() ? "}" : "]}");
 }
 
 std::string ShapesJson(const WorldView& view) {

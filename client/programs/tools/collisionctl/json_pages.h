@@ -17,8 +17,9 @@ std::string Json(const google::protobuf::Message& message);
 std::string MissedJson(std::uint64_t more, std::uint64_t so_far);
 
 /// {"agents": [{"description": AgentDescription, "state": AgentState, "clearance": AgentClearance},
-/// ...]}, without the parts that are not known; with "gone": true where the process of an agent is
-/// gone.
+/// ...]}, without the parts that are not known. Where an agent is not simply there, it has
+/// "presence": "silent", "waited_for", "not_held", "evicted" or "removed_silent". Where agents are
+/// held of which nothing is known, "unknown": [{"simulator": name, "agents": n}, ...] follows.
 std::string AgentsJson(const WorldView& view);
 
 /// {"shapes": [{"hash": hexadecimal, "simulator": name, "agents": n, "triangles": n or null,

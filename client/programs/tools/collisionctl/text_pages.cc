@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "client/api/event_text.h"
@@ -112,6 +113,48 @@ std::string OffsetText(const v1::SimulatorStatus& simulator) {
   return end(has_lower, offset.earliest_ns()) + " … " + end(has_upper, offset.latest_ns()) + " ms";
 }
 
+std::string ExtensionOf(const v1::ServiceStatus& status, const std::string& key) {
+  for (const v1::KeyValue& extension : status.extensions()) {
+    if (extension.key() == key) return extension.value();
+  }
+  return "";
+}
+
+/// The parts of a list in an extension: kListSeparator is between them.
+std::vector<std::string> Parts(const std::string& list) {
+  constexpr std::string_view kListSeparator = ", ";
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from < list.size();) {
+    const std::size_t to = std::min(list.find(kListSeparator, from), list.size());
+    parts.push_back(list.substr(from, to - from));
+    from = to + kListSeparator.size();
+  }
+  return parts;
+}
+
+/// For whom the world's time waits, and why, one a line; empty if it does not.
+std::string WaitingLines(const v1::ServiceStatus& status) {
+  const std::string names = ExtensionOf(status, "waiting_for");
+  if (names.empty()) return "";
+  std::string lines = Line("TIME STANDS", "it waits for: " + names);
+  for (const std::string& why : Parts(ExtensionOf(status, "waiting_why"))) lines += Line("", why);
+  return lines;
+}
+
+/// A row for each simulator that the world waits for and that is not listed: it has not come back
+/// to a service that started again. Only a name of a simulator is without a blank.
+void AddMissing(const v1::ServiceStatus& status, std::vector<std::vector<std::string>>* rows) {
+  constexpr std::size_t kAliveColumn = 2;
+  for (const std::string& name : Parts(ExtensionOf(status, "waiting_for"))) {
+    const auto is_it = [&name](const auto& row) { return row.front() == name; };
+    if (name.find(' ') != std::string::npos || std::any_of(rows->begin(), rows->end(), is_it)) {
+      continue;
+    }
+    rows->emplace_back(rows->front().size(), "-").front() = name;
+    if (CounterOf(status, "simulators_unlisted") == 0) rows->back()[kAliveColumn] = "missing";
+  }
+}
+
 std::string SimulatorsTable(const v1::ServiceStatus& status) {
   std::vector<std::vector<std::string>> rows = {
       {"SIMULATOR", "RUN", "ALIVE", "CLOCK", "GRANTED", "AGENTS", "STATES", "REJECTED"}};
@@ -123,6 +166,7 @@ std::string SimulatorsTable(const v1::ServiceStatus& status) {
                     std::to_string(simulator.states()), std::to_string(simulator.rejected())});
     if (!status.simulated_clock()) rows.back().push_back(OffsetText(simulator));
   }
+  AddMissing(status, &rows);
   return Table(rows);
 }
 
@@ -131,6 +175,25 @@ std::string ShapeText(const std::string& hash) {
   constexpr std::size_t kBytesShown = 4;
   if (hash.empty()) return "ball";
   return HexText(hash.substr(0, kBytesShown));
+}
+
+/// What follows the clearance of an agent that is not simply there.
+const char* PresenceText(AgentPresence presence) {
+  switch (presence) {
+    case AgentPresence::kHeld:
+      return "";
+    case AgentPresence::kSilent:
+      return ", held: its simulator is not heard";
+    case AgentPresence::kWaitedFor:
+      return ", held: its simulator is not heard, time waits for it";
+    case AgentPresence::kNotHeld:
+      return ", not held by the service";
+    case AgentPresence::kEvicted:
+      return ", not held: evicted";
+    case AgentPresence::kRemovedSilent:
+      return ", not held: removed as silent";
+  }
+  return "";
 }
 
 std::vector<std::string> AgentRow(const AgentView& agent) {
@@ -145,7 +208,7 @@ std::vector<std::string> AgentRow(const AgentView& agent) {
       described ? NumberText(description.acceleration_max_m_s2(), "%.6g") : "-"};
   row.push_back(agent.state ? SinceText(agent.state->stamp_ns()) : "-");
   row.push_back(agent.state ? PositionText(agent.state->position_m()) : "-");
-  if (!agent.clearance) {
+  if (!agent.clearance || !IsHeld(agent)) {
     row.push_back("-");
   } else {
     row.push_back(SinceText(agent.clearance->clear_until_ns()) +
@@ -153,7 +216,7 @@ std::vector<std::string> AgentRow(const AgentView& agent) {
                    : agent.clearance->not_clear() ? " not clear"
                                                   : ""));
   }
-  if (agent.gone) row.back() += ", gone";
+  row.back() += PresenceText(agent.presence);
   return row;
 }
 
@@ -168,6 +231,7 @@ std::string NumberText(double value, const char* format) {
 std::string StatusPage(const WorldView& view) {
   const v1::ServiceStatus& status = *view.status();
   std::string page =
+      WaitingLines(status) +
       Line("service", "collisiond " + status.version() + ", id " +
                           std::to_string(status.service_id()) + ", term " +
                           std::to_string(status.stamp().term())) +
@@ -195,7 +259,12 @@ std::string AgentsPage(const WorldView& view) {
   std::vector<std::vector<std::string>> rows = {
       {"ID", "NAME", "SHAPE", "RADIUS [m]", "M [m/s²]", "STATE AT", "POSITION [m]", "CLEAR UNTIL"}};
   for (const AgentView& agent : view.Agents()) rows.push_back(AgentRow(agent));
-  return Table(rows);
+  std::string page = Table(rows);
+  for (const UnknownAgents& unknown : view.Unknown()) {
+    page += "and " + std::to_string(unknown.agents) + " held of " + unknown.simulator +
+            ", which is not heard: nothing is known of them here\n";
+  }
+  return page;
 }
 
 std::string ShapesPage(const WorldView& view) {

@@ -9,11 +9,12 @@
 
 namespace collision::client {
 
-/// Service, clock, simulators, broad phase and why, what is left out, refusals. Requires a status.
+/// For whom time waits and why, service, clock, simulators, broad phase and why, what is left out,
+/// refusals. Requires a status.
 std::string StatusPage(const WorldView& view);
 
-/// A table of all agents: identity, declaration, newest state, how long they are clear, and whether
-/// their process is gone.
+/// A table of all agents: identity, declaration, newest state, how long they are clear, and where
+/// the service holds one whose simulator is not heard, or does not hold it, why.
 std::string AgentsPage(const WorldView& view);
 
 /// A table of all shapes that simulators have published: owner, number of agents, size, and how

@@ -102,6 +102,7 @@ TEST_F(CollisionctlTest, StatusPageShowsSimulatorsAndCounters) {
   count("discontinuities", 0);
   count("breaches", 1);
   v1::SimulatorStatus* simulator = status->add_simulators();
+  simulator->set_simulator_id(5);
   simulator->set_name("sim");
   simulator->set_run(7);
   simulator->set_alive(true);
@@ -139,6 +140,32 @@ TEST_F(CollisionctlTest, StatusPageShowsSimulatorsAndCounters) {
       "\n"
       "SIMULATOR  RUN  ALIVE  CLOCK     GRANTED  AGENTS  STATES  REJECTED\n"
       "sim        7    yes    12.000 s  -        1       0       0\n");
+}
+
+TEST_F(CollisionctlTest, StatusPageSaysFirstThatTimeStandsAndForWhom) {
+  const auto extend = [](v1::ServiceStatus* status, const char* key, const char* value) {
+    v1::KeyValue* extension = status->add_extensions();
+    extension->set_key(key);
+    extension->set_value(value);
+  };
+  Status()->add_simulators()->set_name("one");
+  Poll(1);
+  EXPECT_EQ(StatusPage(view_).find("TIME STANDS"), std::string::npos);
+  v1::ServiceStatus* status = Status();
+  status->add_simulators()->set_name("one");
+  extend(status, "waiting_for", "one, two, shape ab12");
+  extend(status, "waiting_why", "one: not heard for more than 12 s, two: not back");
+  Poll(1);
+  const std::string page = StatusPage(view_);
+  EXPECT_EQ(page.rfind("TIME STANDS  it waits for: one, two, shape ab12\n"
+                       "             one: not heard for more than 12 s\n"
+                       "             two: not back\n"
+                       "service ",
+                       0),
+            0u)
+      << page;
+  const std::string row = "\ntwo        -    missing  -        -        -       -       -\n";
+  EXPECT_EQ(page.substr(page.size() - row.size()), row) << "a shape is no simulator, one is listed";
 }
 
 TEST_F(CollisionctlTest, StatusPageShowsTheOffsetsOfClocksInAWorldOfTheWallClock) {
@@ -193,19 +220,18 @@ TEST_F(CollisionctlTest, ShapesPageShowsTheArrivedPartsOfEach) {
   Poll(5);
   EXPECT_NE(AgentsPage(view_).find("ship  01abcdef  0.5"), std::string::npos) << AgentsPage(view_);
   constexpr const char* kHeading =
-      "SHAPE     SIMULATOR         AGENTS  TRIANGLES  SOLIDS  BYTES   PARTS\n";
-  EXPECT_EQ(ShapesPage(view_), kHeading + std::string("01abcdef  0000000000000005  2       -       "
+      "SHAPE     SIMULATOR  AGENTS  TRIANGLES  SOLIDS  BYTES   PARTS\n";
+  EXPECT_EQ(ShapesPage(view_), kHeading + std::string("01abcdef  sim        2       -       "
                                                       "   -       100000  1 of 3\n"));
   part(0, 7);
   Poll(1);
-  EXPECT_EQ(ShapesPage(view_), kHeading + std::string("01abcdef  0000000000000005  2       12345   "
+  EXPECT_EQ(ShapesPage(view_), kHeading + std::string("01abcdef  sim        2       12345   "
                                                       "   3       100000  2 of 3\n"));
   std::string digits = "01abcdef";
   for (int i = 0; i < 28; ++i) digits += "07";
-  EXPECT_EQ(ShapesJson(view_),
-            "{\"shapes\":[{\"hash\":\"" + digits +
-                "\",\"simulator\":\"0000000000000005\",\"agents\":2,\"triangles\":12345,"
-                "\"solids\":3,\"bytes\":100000,\"parts\":3,\"parts_seen\":2}]}");
+  EXPECT_EQ(ShapesJson(view_), "{\"shapes\":[{\"hash\":\"" + digits +
+                                   "\",\"simulator\":\"sim\",\"agents\":2,\"triangles\":12345,"
+                                   "\"solids\":3,\"bytes\":100000,\"parts\":3,\"parts_seen\":2}]}");
   v1::ShapeRemoval* removal = next_.inputs.emplace_back().mutable_shape_removal();
   removal->set_simulator_id(5);
   removal->set_shape(9);
@@ -261,7 +287,25 @@ TEST_F(CollisionctlTest, RemovedAgentsGoAndTheirNamesStay) {
   EXPECT_TRUE(view_.IsNamed(id));
   id.generation = 2;
   EXPECT_FALSE(view_.IsNamed(id));
-  EXPECT_EQ(view_.Name(id), "0000000000000005:0");
+  EXPECT_EQ(view_.Name(id), "sim:0");
+}
+
+// Of an agent that was never described, the simulator at least keeps its name.
+TEST_F(CollisionctlTest, ASimulatorThatHasLeftKeepsItsName) {
+  v1::SimulatorStatus* simulator = Status()->add_simulators();
+  simulator->set_simulator_id(6);
+  simulator->set_name("six");
+  v1::SimulatorReport* report = next_.outputs.emplace_back().mutable_simulator_report();
+  report->set_simulator_id(7);
+  report->set_name("seven");
+  Poll(2);
+  Describe("ball", 7, 0);
+  Status();
+  Poll(2);
+  EXPECT_EQ(view_.Name({.simulator = 5, .run = 7, .slot = 4, .generation = 1}), "sim:4");
+  EXPECT_EQ(view_.Name({.simulator = 6, .run = 1, .slot = 4, .generation = 1}), "six:4");
+  EXPECT_EQ(view_.Name({.simulator = 7, .run = 1, .slot = 4, .generation = 1}), "seven:4");
+  EXPECT_EQ(view_.Name({.simulator = 8, .slot = 4}), "0000000000000008:4");
 }
 
 // A restart, or a program that pretends to be one, does not take the names from earlier events.

@@ -1,6 +1,6 @@
-// Goal:   agents that the service still holds although their process is gone are shown as such,
-//         with the name where it is known; what has been removed, or belongs to an earlier service
-//         or epoch, is not.
+// Goal:   agents that the service still holds although their simulator is not heard are shown as
+//         such, with the name where it is known; those that it does not hold say why; what has been
+//         removed, or belongs to an earlier service or epoch, is not shown.
 // Method: clearances and statuses by hand, as a monitor that came late, or early, receives them.
 #include <gtest/gtest.h>
 
@@ -45,6 +45,15 @@ class GoneAgentsTest : public testing::Test {
     simulator->set_run(*run);
     simulator->set_name("beta");
     simulator->set_alive(alive);
+  }
+
+  /// Of the status that was handed over last, or of a new one like it.
+  void Extend(const char* key, const char* value) {
+    if (next_.outputs.empty())
+      *next_.outputs.emplace_back().mutable_service_status() = *view_.status();
+    v1::KeyValue* extension = next_.outputs.back().mutable_service_status()->add_extensions();
+    extension->set_key(key);
+    extension->set_value(value);
   }
 
   void Clear(std::uint32_t chunk, const std::vector<std::uint32_t>& slots, std::uint32_t run = 7) {
@@ -94,10 +103,10 @@ TEST_F(GoneAgentsTest, OneThatWasNeverDescribedHereIsShownBySimulatorAndSlot) {
   EXPECT_EQ(AgentsPage(view_),
             "ID         NAME  SHAPE  RADIUS [m]  M [m/s²]  STATE AT  POSITION [m]  CLEAR UNTIL\n"
             "beta:3.1   -     -      -           -         -         -             2.000 s not "
-            "clear, gone\n"
+            "clear, held: its simulator is not heard\n"
             "beta:64.1  -     -      -           -         -         -             2.000 s not "
-            "clear, gone\n");
-  EXPECT_NE(AgentsJson(view_).find("\"gone\":true"), std::string::npos);
+            "clear, held: its simulator is not heard\n");
+  EXPECT_NE(AgentsJson(view_).find("\"presence\":\"silent\""), std::string::npos);
 }
 
 TEST_F(GoneAgentsTest, OneThatWasSeenAliveKeepsItsName) {
@@ -105,13 +114,70 @@ TEST_F(GoneAgentsTest, OneThatWasSeenAliveKeepsItsName) {
   Clear(0, {0});
   Status(7, true, 1);
   ASSERT_EQ(Agents().size(), 1u);
-  EXPECT_FALSE(view_.Agents()[0].gone);
-  EXPECT_EQ(AgentsPage(view_).find("gone"), std::string::npos);
-  EXPECT_EQ(AgentsJson(view_).find("gone"), std::string::npos);
+  EXPECT_EQ(view_.Agents()[0].presence, AgentPresence::kHeld);
+  EXPECT_EQ(AgentsPage(view_).find("held"), std::string::npos);
+  EXPECT_EQ(AgentsJson(view_).find("presence"), std::string::npos);
   Status(7, false, 1);
   ASSERT_EQ(Agents().size(), 1u);
-  EXPECT_TRUE(view_.Agents()[0].gone);
+  EXPECT_EQ(view_.Agents()[0].presence, AgentPresence::kSilent);
+  Extend("waiting_for", "alphabeta, beta");
+  ASSERT_EQ(Agents().size(), 1u);
+  EXPECT_EQ(view_.Agents()[0].presence, AgentPresence::kWaitedFor);
   EXPECT_EQ(view_.Agents()[0].description.agent_name(), "buoy");
+}
+
+// Its writer may live, so that the description stands.
+TEST_F(GoneAgentsTest, OneThatIsDescribedAndNotHeldSaysWhy) {
+  Describe(0);
+  Clear(0, {0});
+  Status({}, false, 1);
+  ASSERT_EQ(Agents().size(), 1u);
+  EXPECT_EQ(view_.Agents()[0].presence, AgentPresence::kNotHeld);
+  EXPECT_FALSE(view_.knows_all_agents()) << "it is not the one that the service has";
+  for (const auto& [key, expected] : {std::pair("evicted", AgentPresence::kEvicted),
+                                      {"removed_silent", AgentPresence::kRemovedSilent}}) {
+    Status({}, false, 0);
+    Extend(key, "be, beta, eta");
+    ASSERT_EQ(Agents().size(), 1u);
+    EXPECT_EQ(view_.Agents()[0].presence, expected) << key;
+    Status({}, false, 0);
+    Extend(key, "be, eta");
+    ASSERT_EQ(Agents().size(), 1u);
+    EXPECT_EQ(view_.Agents()[0].presence, AgentPresence::kNotHeld) << key;
+  }
+  EXPECT_NE(AgentsPage(view_).find(" -, not held by the service\n"), std::string::npos);
+  Status(8, true, 1);
+  ASSERT_EQ(Agents().size(), 1u);
+  EXPECT_EQ(view_.Agents()[0].presence, AgentPresence::kNotHeld) << "of an older run";
+  Status(6, true, 1);
+  ASSERT_EQ(Agents().size(), 1u);
+  EXPECT_EQ(view_.Agents()[0].presence, AgentPresence::kHeld) << "a newer run is on its way";
+  // The status does not name all simulators: it may be held.
+  Status({}, false, 1);
+  v1::Counter* unlisted = next_.outputs.back().mutable_service_status()->add_counters();
+  unlisted->set_name("simulators_unlisted");
+  unlisted->set_value(1);
+  ASSERT_EQ(Agents().size(), 1u);
+  EXPECT_EQ(view_.Agents()[0].presence, AgentPresence::kHeld);
+}
+
+// A simulator that was never granted time has no clearances.
+TEST_F(GoneAgentsTest, HeldAgentsOfWhichNothingHasComeAreCounted) {
+  Status(7, true, 3);
+  next_.outputs.back().mutable_service_status()->mutable_simulators(0)->set_agents(3);
+  Describe(0);
+  Agents();
+  EXPECT_TRUE(view_.Unknown().empty()) << "the living will tell";
+  Status(7, false, 3);
+  next_.outputs.back().mutable_service_status()->mutable_simulators(0)->set_agents(3);
+  Agents();
+  EXPECT_NE(AgentsPage(view_).find("\nand 2 held of beta, which is not heard"), std::string::npos);
+  EXPECT_NE(AgentsJson(view_).find("],\"unknown\":[{\"simulator\":\"beta\",\"agents\":2}]}"),
+            std::string::npos)
+      << AgentsJson(view_);
+  for (const std::uint32_t slot : {1, 2}) Describe(slot);
+  Agents();
+  EXPECT_TRUE(view_.Unknown().empty());
 }
 
 TEST_F(GoneAgentsTest, WhatTheServiceHoldsNoMoreIsNotShown) {
