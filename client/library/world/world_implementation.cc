@@ -290,14 +290,15 @@ void World::Implementation::RepeatClock() {
 }
 
 void World::Implementation::Tend() {
-  if (closed_) return;
-  if (!clock_published_) {
-    // That it is there, and how far its clock is off.
-    if (!lock_step_ && agents_.size() > 0 && IsQuiet()) WriteClock(kBeforeAll);
-    return;
-  }
+  // With a wall clock it tells before its first clock that it is there, and how far that is off.
+  const bool present = !lock_step_ && agents_.size() > 0;
+  if (closed_ || (!clock_published_ && !present)) return;
   const bool again = MustReintroduce();
   if (again) Reintroduce();
+  if (!clock_published_) {
+    if (again || IsQuiet()) WriteClock(kBeforeAll);
+    return;
+  }
   // A clock that has been reached is told with what comes next; until then the last one stands.
   if (clock_due_) {
     if (last_clock_.simulator_id() != 0 && IsQuiet()) RepeatClock();

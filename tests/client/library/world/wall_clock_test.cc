@@ -45,6 +45,16 @@ class WallClockTest : public testing::Test {
     agent.set_state_wanted_ns(kNever);
     world_.Poll();
   }
+  /// The service has ended its run.
+  void EndRun(v1::RunEnd why) {
+    v1::SimulatorReport& report = *network_->arriving.emplace_back().mutable_simulator_report();
+    report.set_simulator_id(SimulatorId(kSimulator));
+    report.set_run(kRun);
+    report.set_incarnation(LastClock().incarnation());
+    report.set_ended(why);
+    Stamp(1, report.mutable_stamp());
+    network_->alive = true;
+  }
   static void Stamp(std::uint32_t epoch, v1::ServiceStamp* stamp) {
     stamp->set_service_id(kService);
     stamp->set_term(1);
@@ -207,6 +217,17 @@ TEST_F(WallClockTest, BeforeItsFirstClockItTellsThatItIsThere) {
   EXPECT_EQ(LastClock().clock_ns(), now_ns_);
 }
 
+TEST_F(WallClockTest, ARunThatEndsInSilenceBeforeItsFirstClockIsFollowedByTheNextOneToo) {
+  world_.Poll();
+  EndRun(v1::RUN_SILENT);
+  network_->written.clear();
+  world_.Poll();
+  ASSERT_EQ(network_->Clocks().size(), 1u);
+  EXPECT_EQ(LastClock().run(), kRun + 1);
+  ASSERT_TRUE(network_->written.front().has_agent_description());
+  EXPECT_EQ(network_->written.front().agent_description().run(), kRun + 1);
+}
+
 TEST_F(LockStepTest, InLockStepItAsksNothingBeforeItsFirstClock) {
   world_.Poll();
   EXPECT_TRUE(network_->Clocks().empty());
@@ -221,13 +242,7 @@ TEST_F(WallClockTest, WhenItsRunEndedInSilenceNoPromiseStandsAndEverythingIsSent
   Tell();
   Hear(now_ns_);
   Acknowledge(1);
-  v1::SimulatorReport& report = *network_->arriving.emplace_back().mutable_simulator_report();
-  report.set_simulator_id(SimulatorId(kSimulator));
-  report.set_run(kRun);
-  report.set_incarnation(LastClock().incarnation());
-  report.set_ended(v1::RUN_SILENT);
-  Stamp(1, report.mutable_stamp());
-  network_->alive = true;
+  EndRun(v1::RUN_SILENT);
   const std::size_t states = StatesSent();
   world_.Poll();
   EXPECT_EQ(voided, std::vector<AgentId>{agent_.id()});
