@@ -102,8 +102,8 @@ FIELDS(AgentStates,
 FIELDS(SimulatorClock,
        VALUE(simulator_id) VALUE(incarnation) VALUE(run) TEXT(simulator_name) VALUE(clock_ns)
        VALUE(next_ns) VALUE(states_sequence) VALUE(descriptions_sequence) VALUE(agents)
-       VALUE(lock_step) VALUE(service_id) VALUE(clearances_sequence) VALUE(epoch)
-       VALUE(echo_ns) VALUE(heard_ns) VALUE(sent_ns))
+       VALUE(lock_step) VALUE(service_id) VALUE(service_term) VALUE(clearances_sequence)
+       VALUE(epoch) VALUE(echo_ns) VALUE(heard_ns) VALUE(sent_ns))
 
 FIELDS(AgentClearance,
        VALUE(slot) VALUE(generation) VALUE(clear_until_ns) VALUE(not_clear) VALUE(saturated)

@@ -32,6 +32,11 @@ void ServiceClaim::Hear(const HeardService& heard, std::int64_t now_ns) {
   ++known->second.samples;
 }
 
+void ServiceClaim::HearOfTerm(std::uint32_t term) {
+  if (term != std::numeric_limits<std::uint32_t>::max())
+    highest_heard_ = std::max(highest_heard_, term);
+}
+
 /// Whether `other` keeps the world and this service leaves it.
 bool ServiceClaim::GoesFirst(const HeardService& other) const {
   if (phase_ == ClaimPhase::kClaiming) {

@@ -184,6 +184,7 @@ class Daemon::Implementation {
   bool Claim(const std::vector<v1::Input>& inputs) {
     const std::int64_t now_ns = world_.monotonic_ns();
     for (const v1::Input& input : inputs) {
+      if (input.has_simulator_clock()) claim_.HearOfTerm(input.simulator_clock().service_term());
       if (!input.has_service_heard()) continue;
       const v1::ServiceHeard& heard = input.service_heard();
       claim_.Hear({.instance = heard.service_id(),

@@ -56,6 +56,10 @@ Network::Id Network::Join(Role role, std::uint64_t simulator, std::function<void
   program.role = role;
   program.simulator = simulator;
   program.arrived = std::move(arrived);
+  for (const Id other : isolated_) {
+    blocked_.insert({id, other});
+    blocked_.insert({other, id});
+  }
   for (const auto& [other, unused] : programs_) {
     if (other == id || unused.gone) continue;
     After(Delay(), [this, id, other = other] { Hear(id, other); });
@@ -273,6 +277,7 @@ void Network::Release(Id writer, Id reader, Topic topic) {
 }
 
 void Network::Isolate(Id id) {
+  isolated_.insert(id);
   for (const auto& [other, unused] : programs_) {
     if (other == id || unused.gone) continue;
     Block(id, other);
@@ -281,6 +286,7 @@ void Network::Isolate(Id id) {
 }
 
 void Network::Rejoin(Id id) {
+  isolated_.erase(id);
   for (const auto& [other, unused] : programs_) {
     Unblock(id, other);
     Unblock(other, id);

@@ -170,6 +170,7 @@ class Network {
   std::map<Id, Program> programs_;
   std::map<std::pair<Id, Id>, Link> links_;  ///< Writer, reader.
   std::set<std::pair<Id, Id>> blocked_;      ///< From, to.
+  std::set<Id> isolated_;                    ///< Blocked from all, also from those that join later.
   NetworkCounters counters_;
 };
 

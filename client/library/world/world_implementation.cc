@@ -274,6 +274,7 @@ void World::Implementation::WriteClock() { WriteClock(clock_ns_); }
 void World::Implementation::WriteClock(std::int64_t clock_ns) {
   last_clock_ = agents_.Clock(clock_ns, next_ns_, lock_step_);
   last_clock_.set_service_id(service_.id());
+  last_clock_.set_service_term(service_.term());
   last_clock_.set_clearances_sequence(clearances_sequence_);
   if (!lock_step_) echo_.FillIn(wall_clock_(), &last_clock_);
   clock_due_ = false;

@@ -229,6 +229,32 @@ void TwoServices(const Setting& setting, Outcome* outcome) {
   }
 }
 
+/// A service stands still, another one takes its place, and the first goes on.
+void Successor(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(6, 100); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    const Moment moment = MomentOf(seed, 30 * kSecond);
+    const Fleet fleet{.network = Faulty(seed), .seed = seed};
+    const auto scene = MakeScene(fleet);
+    ServiceProgram& second =
+        scene->AddService({.state_dir = {}, .instance = i % 2 == 0 ? 100u : 10u});
+    scene->StartAll();
+    second.Kill();
+    scene->When(moment.at_ns, [&] {
+      scene->service().Suspend();
+      // Not before it counts as gone: beside a live one the second would end.
+      scene->network().After(5 * kSecond, [&] { second.Start(); });
+      scene->network().After(10 * kSecond + moment.for_ns, [&] { scene->service().Resume(); });
+    });
+    outcome->Expect(scene->RunToEnd(600 * kSecond), Seed(seed) + "the run came to no end");
+    scene->network().Run(scene->network().now_ns() + 50 * kSecond);
+    outcome->Expect(second.runs(), Seed(seed) + "the successor has not stayed");
+    outcome->Expect(!scene->service().runs(), Seed(seed) + "the former service has stayed");
+    ReportProgress(*scene, seed, outcome);
+    JudgeAll(fleet, *scene, scene->monitor(), outcome);
+  }
+}
+
 /// A monitor reads no more while more contacts are published than wait for it.
 void MonitorStops(const Setting& setting, Outcome* outcome) {
   for (int i = 0; i < setting.Many(6, 60); ++i) {
@@ -291,6 +317,9 @@ std::vector<Case> ProgramCases() {
       {"programs", "two-services", promise + "; in the end there is one service", TwoServices,
        "a second service is started that hears the first after 10 ms to 30 s, while all "
        "simulators hear both"},
+      {"programs", "successor", promise + "; the first service ends when it is back", Successor,
+       "the process of the service stands still, after 5 s a second service is started, and 5 to "
+       "35 s later the first one goes on"},
       {"programs", "monitor-stops",
        promise + "; what the monitor has not heard, and only that, counts as missed", MonitorStops,
        "a monitor stops reading for 5 s of the world; in every second run only 2 contacts wait "

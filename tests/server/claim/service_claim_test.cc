@@ -81,6 +81,24 @@ TEST(ServiceClaim, ATermHeardOfOneThatHasDiedCounts) {
   EXPECT_EQ(claim.term(), 42u);
 }
 
+// Of one that stands still nothing is heard. Its clients are, and when it is back it ends.
+TEST(ServiceClaim, ATermThatSimulatorsFollowCountsUnlessItIsTheGreatest) {
+  ServiceClaim former = Serving(1);
+  ServiceClaim claim(Options(5));
+  claim.Update(0);
+  claim.HearOfTerm(former.term());
+  claim.HearOfTerm(kTermMax);
+  claim.Update(kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
+  EXPECT_EQ(claim.term(), former.term() + 1);
+  for (const std::uint64_t sequence : {1u, 2u}) {
+    former.Hear({.instance = 5, .term = claim.term(), .serving = true, .sequence = sequence},
+                2 * kSecond);
+  }
+  former.Update(2 * kSecond);
+  EXPECT_EQ(former.phase(), ClaimPhase::kYielded);
+}
+
 TEST(ServiceClaim, TheGreatestTermIsNotExceeded) {
   EXPECT_EQ(Serving(5, kTermMax).term(), kTermMax);
   EXPECT_EQ(Serving(5, kTermMax - 1).term(), kTermMax);
