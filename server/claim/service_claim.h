@@ -50,8 +50,8 @@ class ServiceClaim {
   /// Takes a status that has arrived. Its own is ignored.
   void Hear(const HeardService& heard, std::int64_t now_ns);
 
-  /// A simulator follows, or has followed, a service of this term, which may be gone or stand still:
-  /// it goes before that one, once it serves. At the greatest number it is no sign of one.
+  /// A simulator follows, or has followed, a service of this term, which may be gone or stand
+  /// still: this one goes before it, once it serves. The greatest number is no sign of one.
   void HearOfTerm(std::uint32_t term);
 
   /// Brings the phase up to date; the first call begins the claim.
