@@ -78,6 +78,12 @@ std::optional<std::int64_t> ServiceClaim::NextDue() const {
   return *since_ns_ + options_.wait_ns;
 }
 
+bool ServiceClaim::IsContended(std::int64_t now_ns) const {
+  return std::any_of(others_.begin(), others_.end(), [now_ns](const auto& other) {
+    return other.second.newest.serving && now_ns - other.second.heard_ns <= kContendedForNs;
+  });
+}
+
 std::vector<std::string> ServiceClaim::Conflicts(std::int64_t now_ns) const {
   std::vector<std::string> lines;
   if (phase_ != ClaimPhase::kServing) return lines;

@@ -67,6 +67,9 @@ class ServiceClaim {
   /// When Update() changes something although nothing is heard; nullopt: never.
   std::optional<std::int64_t> NextDue() const;
 
+  /// Whether another service was heard to serve this world within kContendedForNs.
+  bool IsContended(std::int64_t now_ns) const;
+
   /// Serving: one line for each live service that serves this world too and will yield, or has an
   /// implausible term. Empty is what an operator wants to see.
   std::vector<std::string> Conflicts(std::int64_t now_ns) const;
@@ -89,6 +92,10 @@ class ServiceClaim {
   std::string why_;
   std::map<std::uint64_t, Other> others_;  ///< By instance; at most kOthersMax.
 };
+
+/// So long after another service was heard, what this one says may still be overwritten by what
+/// that one wrote: longer than a message is on its way on any network.
+inline constexpr std::int64_t kContendedForNs = 60'000'000'000;
 
 /// Other services of one world that are remembered at a time; further ones are not, except that
 /// their terms count.

@@ -128,7 +128,8 @@ void Intake::TakeClock(const v1::Input& input) {
   // A clock that is only repeated is no progress.
   if (std::get<Instant>(decoded) > time.newest() || time.awaits_own_clock()) simulator->Resume();
   if (wire.service_id() == instance_) {
-    simulator->agents().clearances().Acknowledge(wire.clearances_sequence(), world_.monotonic_ns());
+    simulator->agents().clearances().Acknowledge(wire.clearances_sequence(), world_.monotonic_ns(),
+                                                 contended_);
   }
   const bool tells_next = wire.next_ns() > wire.clock_ns();
   time.Offer(

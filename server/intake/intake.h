@@ -40,6 +40,9 @@ class Intake {
 
   void Apply(const v1::Input& input);
 
+  /// Whether another service publishes in this world, or did lately (Clearances::Acknowledge()).
+  void SetContended(bool contended) { contended_ = contended; }
+
   /// Brings clocks into force.
   void TakeClocks();
 
@@ -96,6 +99,7 @@ class Intake {
   void Enact(Simulator* simulator);
 
   const std::uint64_t instance_;
+  bool contended_ = false;
   World& world_;
   detection::Detector& detector_;
   Rejections& rejections_;

@@ -44,20 +44,14 @@ void Publisher::PublishClearances(World* world) {
     // Before time begins only who asked for it is told.
     if (world->simulated() && !simulator.time().granted()) continue;
     // Chunk 0 last: a simulator that waits for the grant in it then has all the others.
-    Clearances& clearances = simulator.agents().clearances();
-    const std::set<std::uint32_t> changed = clearances.TakeChanged();
-    std::map<std::uint32_t, Instant> chunks = clearances.TakeRepeated();
-    for (const std::uint32_t chunk : changed) chunks[chunk] = world->now();
+    const std::set<std::uint32_t> chunks = simulator.agents().clearances().TakeChanged();
     for (auto chunk = chunks.rbegin(); chunk != chunks.rend(); ++chunk) {
-      // With a wall clock the answer to a sample measures its sender's clock, by the time in it.
-      PublishChunk(*world, &simulator, chunk->first,
-                   world->simulated() ? chunk->second : world->now());
+      PublishChunk(*world, &simulator, *chunk);
     }
   }
 }
 
-void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t chunk,
-                             Instant as_of) {
+void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t chunk) {
   const Simulator& simulator = *to;
   v1::Output output;
   v1::Clearance& clearance = *output.mutable_clearance();
@@ -66,11 +60,10 @@ void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t ch
   clearance.set_run(simulator.run());
   clearance.set_incarnation(simulator.incarnation());
   *clearance.mutable_stamp() = NextStamp();
-  clearance.set_now_ns(as_of.nanoseconds());
+  clearance.set_now_ns(world.now().nanoseconds());
   clearance.set_granted_until_ns(
       simulator.time().granted().value_or(Instant::Never()).nanoseconds());
-  to->agents().clearances().Publish(chunk, clearance.stamp().sequence(), world.monotonic_ns(),
-                                    as_of);
+  to->agents().clearances().Publish(chunk, clearance.stamp().sequence(), world.monotonic_ns());
   const Lowerings& lowerings = simulator.agents().clearances().lowerings();
   clearance.set_contacts_sequence(events_.contacts);
   clearance.set_forecasts_sequence(newest_forecast_);
@@ -78,7 +71,7 @@ void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t ch
   const auto end = clearances.lower_bound((chunk + 1) * kSlotsPerChunk);
   for (auto next = clearances.lower_bound(chunk * kSlotsPerChunk); next != end; ++next) {
     const Agent& agent = *simulator.agents().Find(next->first);
-    const Instant wanted = demand_.WantedAt(next->second, agent.stamp(), as_of);
+    const Instant wanted = demand_.WantedAt(next->second, agent.stamp(), world.now());
     v1::AgentClearance& wire = *clearance.add_agents() =
         Encode(next->second, agent.acknowledged_sequence(), agent.acknowledged_revision(), wanted);
     wire.set_effective_from_ns(

@@ -57,7 +57,7 @@ class Publisher {
 
  private:
   v1::ServiceStamp NextStamp();
-  void PublishChunk(const World& world, Simulator* to, std::uint32_t chunk, Instant as_of);
+  void PublishChunk(const World& world, Simulator* to, std::uint32_t chunk);
 
   const ServiceClaim& claim_;
   const StateDemand demand_;

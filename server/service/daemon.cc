@@ -198,6 +198,7 @@ class Daemon::Implementation {
     for (const std::string& conflict : claim_.Conflicts(now_ns)) {
       Log(spdlog::level::warn, "two services in one world", conflict);
     }
+    intake_.SetContended(claim_.IsContended(now_ns));
     if (claim_.phase() == ClaimPhase::kServing && before == ClaimPhase::kClaiming) BeginTerm();
     return claim_.phase() != ClaimPhase::kYielded;
   }

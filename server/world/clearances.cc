@@ -20,21 +20,20 @@ void Clearances::Forget(std::uint32_t slot) {
   MarkChanged(slot);
 }
 
-void Clearances::Publish(std::uint32_t chunk, std::uint64_t sequence, std::int64_t now_ns,
-                         Instant as_of) {
-  as_of_[chunk] = as_of;
+void Clearances::Publish(std::uint32_t chunk, std::uint64_t sequence, std::int64_t now_ns) {
   if (lowerings_.acknowledged() >= lowerings_.published()) waiting_since_ns_ = now_ns;
   lowerings_.Publish(chunk, sequence);
 }
 
-void Clearances::Acknowledge(std::uint64_t sequence, std::int64_t now_ns) {
+void Clearances::Acknowledge(std::uint64_t sequence, std::int64_t now_ns, bool contended) {
   const std::uint64_t before = lowerings_.acknowledged();
   lowerings_.Acknowledge(sequence);
   if (lowerings_.acknowledged() > before) waiting_since_ns_ = now_ns;
-  if (lowerings_.acknowledged() >= lowerings_.published()) return;
+  if (!contended || lowerings_.acknowledged() >= lowerings_.published()) return;
   if (now_ns - waiting_since_ns_ < kRepeatAfterNs) return;
   waiting_since_ns_ = now_ns;
-  repeats_ = true;
+  for (const auto& [slot, clearance] : clearances_) MarkChanged(slot);
+  MarkGrantChanged();
 }
 
 void Clearances::Validate() const {
@@ -48,9 +47,5 @@ void Clearances::Validate() const {
 }
 
 std::set<std::uint32_t> Clearances::TakeChanged() { return std::exchange(changed_, {}); }
-
-std::map<std::uint32_t, Instant> Clearances::TakeRepeated() {
-  return std::exchange(repeats_, false) ? as_of_ : std::map<std::uint32_t, Instant>();
-}
 
 }  // namespace collision::server

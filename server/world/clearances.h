@@ -40,14 +40,15 @@ class Clearances {
   /// The agent in `slot` is gone, with its clearance; marks its chunk.
   void Forget(std::uint32_t slot);
 
-  /// The sample of this chunk was published under this sequence, at this monotonic time, as of this
-  /// time of the world.
-  void Publish(std::uint32_t chunk, std::uint64_t sequence, std::int64_t now_ns, Instant as_of);
+  /// The sample of this chunk was published under this sequence, at this monotonic time.
+  void Publish(std::uint32_t chunk, std::uint64_t sequence, std::int64_t now_ns);
 
   /// A clock of the simulator says that it has taken in all samples up to this sequence. If some
-  /// wait for that, and none was taken in for kRepeatAfterNs, all are to be repeated: beside those
-  /// of another service, which are of the same keys, they may have been overwritten unread.
-  void Acknowledge(std::uint64_t sequence, std::int64_t now_ns);
+  /// wait for that, none was taken in for kRepeatAfterNs, and the world is `contended`, all are
+  /// marked: beside those of another service, which are of the same keys, they may have been
+  /// overwritten unread. Without another one that cannot be, and a sample that is written again
+  /// while its first copy is lost on the way would come after the grant that was to follow it.
+  void Acknowledge(std::uint64_t sequence, std::int64_t now_ns, bool contended);
 
   /// What lowered them and has not been acknowledged.
   const Lowerings& lowerings() const { return lowerings_; }
@@ -67,11 +68,6 @@ class Clearances {
   /// The chunks marked since the last call, in ascending order; none is marked afterwards.
   [[nodiscard]] std::set<std::uint32_t> TakeChanged();
 
-  /// The chunks to be published once more as they were, each with the time of the world that it was
-  /// of: when that is done depends on the network, so it must tell nothing new. A chunk that is
-  /// marked as changed may be among them.
-  [[nodiscard]] std::map<std::uint32_t, Instant> TakeRepeated();
-
  private:
   using SlotIndex = Index<struct SlotTag>;
 
@@ -82,8 +78,6 @@ class Clearances {
   std::map<std::uint32_t, detection::AgentClearance> clearances_;
   EventQueue<SlotIndex> ends_;  // EndOf() of each clearance
   std::set<std::uint32_t> changed_;
-  std::map<std::uint32_t, Instant> as_of_;  ///< By chunk: when it was published last.
-  bool repeats_ = false;
   Lowerings lowerings_;
   std::int64_t waiting_since_ns_ = 0;  ///< While samples are not acknowledged.
 };

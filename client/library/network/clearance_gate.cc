@@ -14,7 +14,7 @@ std::vector<v1::Clearance> ClearanceGate::Take(ContactSequence* contacts,
   std::vector<v1::Clearance> passed;
   while (!waiting_.empty()) {
     auto& [clearance, since] = waiting_.front();
-    const bool overdue = now - since >= kPatience || waiting_.size() > kWaitingMax;
+    const bool overdue = now - since >= patience_ || waiting_.size() > kWaitingMax;
     if (overdue) contacts->GiveUp(clearance.contacts_sequence());
     if (!contacts->HasAll(clearance.contacts_sequence())) break;
     if (!overdue && clearance.forecasts_sequence() > newest_forecast) break;
@@ -26,7 +26,7 @@ std::vector<v1::Clearance> ClearanceGate::Take(ContactSequence* contacts,
 
 std::optional<std::chrono::nanoseconds> ClearanceGate::Remaining(Time now) const {
   if (waiting_.empty()) return std::nullopt;
-  return std::max<std::chrono::nanoseconds>(waiting_.front().since + kPatience - now,
+  return std::max<std::chrono::nanoseconds>(waiting_.front().since + patience_ - now,
                                             std::chrono::nanoseconds(0));
 }
 

@@ -25,11 +25,17 @@ class ClearanceGate {
 
   /// Events that have not come for so long are given up: the service sends them again within
   /// milliseconds, so they were overwritten.
-  static constexpr auto kPatience = kServiceSilence;
+  static constexpr std::chrono::nanoseconds kPatience = kServiceSilence;
+
+  /// In lock-step, where the world's time stands meanwhile: a service that gets no processor may
+  /// take that long, and which step hears of an event must not depend on it.
+  static constexpr std::chrono::nanoseconds kPatienceInLockStep = std::chrono::seconds(30);
 
   /// Clearances that wait (6 kB each at most); beyond, the events that the oldest one waits for are
   /// given up.
   static constexpr std::size_t kWaitingMax = 1024;
+
+  explicit ClearanceGate(std::chrono::nanoseconds patience = kPatience) : patience_(patience) {}
 
   void Add(const v1::Clearance& clearance, Time now);
 
@@ -51,6 +57,7 @@ class ClearanceGate {
     Time since;
   };
 
+  std::chrono::nanoseconds patience_;
   std::deque<Waiting> waiting_;
 };
 

@@ -64,6 +64,7 @@ World::Implementation::Implementation(const WorldOptions& options,
       arrival_(run_, options.incarnation != 0 ? options.incarnation : DrawIncarnation()),
       agents_(options.simulator, simulator_id_, run_, arrival_.incarnation(), PolicyOf(options)),
       shapes_(simulator_id_, run_, arrival_.incarnation()),
+      gate_(options.lock_step ? ClearanceGate::kPatienceInLockStep : ClearanceGate::kPatience),
       wall_clock_(options.wall_clock ? options.wall_clock : SystemClockNs) {}
 
 bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {

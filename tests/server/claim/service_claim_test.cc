@@ -99,6 +99,16 @@ TEST(ServiceClaim, ATermThatSimulatorsFollowCountsUnlessItIsTheGreatest) {
   EXPECT_EQ(former.phase(), ClaimPhase::kYielded);
 }
 
+TEST(ServiceClaim, TheWorldIsContendedForAWhileAfterAnotherServiceWasHeard) {
+  ServiceClaim claim = Serving(1);
+  EXPECT_FALSE(claim.IsContended(kSecond));
+  claim.Hear({.instance = 5, .term = 1, .serving = false, .sequence = 1}, kSecond);
+  EXPECT_FALSE(claim.IsContended(kSecond)) << "it publishes nothing but its claim";
+  claim.Hear({.instance = 5, .term = 1, .serving = true, .sequence = 2}, kSecond);
+  EXPECT_TRUE(claim.IsContended(kSecond + kContendedForNs));
+  EXPECT_FALSE(claim.IsContended(kSecond + kContendedForNs + 1));
+}
+
 TEST(ServiceClaim, TheGreatestTermIsNotExceeded) {
   EXPECT_EQ(Serving(5, kTermMax).term(), kTermMax);
   EXPECT_EQ(Serving(5, kTermMax - 1).term(), kTermMax);

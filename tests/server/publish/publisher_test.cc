@@ -163,31 +163,5 @@ TEST(Publisher, ASimulatorWithoutAGrantKeepsItsMarks) {
   EXPECT_EQ(Chunks(bus), (std::vector<std::uint32_t>{1}));
 }
 
-// When it is repeated depends on the network; a simulator in lock-step must not notice.
-TEST(Publisher, ASampleThatIsRepeatedTellsTheTimeThatItWasOf) {
-  ScriptedBus bus;
-  const ServiceClaim claim = Claimed();
-  Publisher publisher(Config(), &claim, &bus);
-  OneSimulator one;
-  Clearances& clearances = one.simulator->agents().clearances();
-  one.simulator->time().Grant(At(kSecond));
-  clearances.MarkGrantChanged();
-  clearances.MarkChanged(64);
-  publisher.PublishClearances(&one.world);
-  ASSERT_EQ(Chunks(bus), (std::vector<std::uint32_t>{1, 0}));
-  const std::int64_t then_ns = bus.outputs[0].clearance().now_ns();
-  one.simulator->time().Offer({.clock = At(kSecond)});
-  EXPECT_TRUE(one.simulator->time().Take());
-  one.world.MoveOn();
-  ASSERT_GT(one.world.now().nanoseconds(), then_ns);
-  clearances.MarkGrantChanged();
-  clearances.Acknowledge(0, kRepeatAfterNs);
-  bus.outputs.clear();
-  publisher.PublishClearances(&one.world);
-  ASSERT_EQ(Chunks(bus), (std::vector<std::uint32_t>{1, 0}));
-  EXPECT_EQ(bus.outputs[0].clearance().now_ns(), then_ns);
-  EXPECT_EQ(bus.outputs[1].clearance().now_ns(), one.world.now().nanoseconds());
-}
-
 }  // namespace
 }  // namespace collision::server
