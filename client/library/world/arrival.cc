@@ -35,7 +35,11 @@ bool Arrival::IsBehind() const {
   const bool same_agents = own_->descriptions_sequence() == awaited_.descriptions;
   if (!all_described || !all_stated) return true;
   if (same_agents && own_->agents_stated() < awaited_.stated) return true;
-  return std::any_of(own_->refusals().begin(), own_->refusals().end(), IsMissing);
+  return SomethingIsMissing();
+}
+
+bool Arrival::SomethingIsMissing() const {
+  return own_ && std::any_of(own_->refusals().begin(), own_->refusals().end(), IsMissing);
 }
 
 void Arrival::Hear(const v1::SimulatorReport& report, Time now) {
@@ -74,7 +78,9 @@ void Arrival::TakeRunAfter(std::uint32_t run) {
 }
 
 bool Arrival::TakeDue(Time now) {
-  const bool behind = written_ && !reached_ && !waits() && now - awaited_.at >= resend_after_;
+  const std::chrono::seconds patience =
+      SomethingIsMissing() ? resend_after_ : std::max(resend_after_, least_);
+  const bool behind = written_ && !reached_ && !waits() && now - awaited_.at >= patience;
   if (!due_ && !behind) return false;
   with_shapes_ =
       due_ || (own_ && std::any_of(own_->refusals().begin(), own_->refusals().end(), LacksShape));

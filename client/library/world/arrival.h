@@ -15,6 +15,12 @@ namespace collision::client {
 inline constexpr std::chrono::seconds kResendAfter(1);
 inline constexpr std::chrono::seconds kResendAfterMax(8);
 
+/// In lock-step, unless something is refused because it has not arrived. What is written again
+/// while its first copy is lost on the way comes after what was written next, and a clock would
+/// count before its states: so a service that only gets no processor is given more time. The
+/// world's time stands meanwhile.
+inline constexpr std::chrono::seconds kResendAfterInLockStep(30);
+
 /// Compares the service's reports with what one program has written.
 ///
 /// **Arrival.** A report counts the descriptions and states that have arrived. If it stays behind
@@ -34,7 +40,10 @@ class Arrival {
   using Time = std::chrono::steady_clock::time_point;
 
   /// `incarnation`: of this program, not 0.
-  Arrival(std::uint32_t run, std::uint32_t incarnation) : run_(run), incarnation_(incarnation) {}
+  Arrival(std::uint32_t run, std::uint32_t incarnation, bool lock_step = false)
+      : run_(run),
+        incarnation_(incarnation),
+        least_(lock_step ? kResendAfterInLockStep : kResendAfter) {}
 
   /// This program's run: the one it was made with, or the next one after another program's.
   std::uint32_t run() const { return run_; }
@@ -74,6 +83,8 @@ class Arrival {
   };
 
   bool IsBehind() const;
+  /// A refusal says so.
+  bool SomethingIsMissing() const;
   void Await(const Written& written, Time now);
   void HearOfOther(const v1::SimulatorReport& report);
   void TakeRunAfter(std::uint32_t run);
@@ -86,6 +97,7 @@ class Arrival {
   bool reached_ = true;
   bool due_ = false;
   bool with_shapes_ = false;
+  std::chrono::seconds least_;  ///< Before something is written again for want of a report.
   std::chrono::seconds resend_after_ = kResendAfter;
 };
 

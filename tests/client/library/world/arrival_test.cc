@@ -80,6 +80,22 @@ TEST_F(ArrivalTest, WhatIsMissingIsSentAgainEverMoreRarely) {
   }
 }
 
+TEST_F(ArrivalTest, InLockStepAServiceThatIsOnlyLateIsGivenMoreTime) {
+  arrival_ = Arrival(kRun, kOwn, true);
+  Write(5, 9, 5);
+  Report(5, 8, 5);
+  EXPECT_FALSE(DueAfter(kResendAfterInLockStep - milliseconds(1)));
+  EXPECT_TRUE(DueAfter(milliseconds(1)));
+  EXPECT_FALSE(DueAfter(kResendAfterInLockStep - milliseconds(1)));
+  v1::SimulatorReport report;
+  report.set_run(kRun);
+  report.set_incarnation(kOwn);
+  report.set_descriptions_sequence(4);
+  report.add_refusals()->set_reason(v1::REJECTED_NOT_DESCRIBED);
+  arrival_.Hear(report, now_);
+  EXPECT_TRUE(DueAfter(milliseconds(0))) << "a description is missing";
+}
+
 // Goal:   in a stream the report is always behind the newest clock: that is no gap.
 TEST_F(ArrivalTest, AStreamThatIsReportedLateIsNotSentAgain) {
   Write(5, 0, 0);
