@@ -19,7 +19,7 @@ inline constexpr std::chrono::seconds kResendAfterMax(8);
 /// while its first copy is lost on the way comes after what was written next, and a clock would
 /// count before its states: so a service that only gets no processor is given more time. The
 /// world's time stands meanwhile.
-inline constexpr std::chrono::seconds kResendAfterInLockStep(30);
+inline constexpr std::chrono::seconds kResendAfterInLockStep(120);
 
 /// Compares the service's reports with what one program has written.
 ///
