@@ -164,26 +164,31 @@ Only evict and restart-time change anything in the world. The network is that of
 by CYCLONEDDS_URI. Exit codes: 0 done, 1 refused or not answered within the timeout, 2 usage, 69 no
 service within the timeout or no DDS, 74 the output cannot be written.)";
 
+/// The options, and the commands that show something.
+void AddViews(CLI::App* app, Options* options) {
+  app->add_option("--world", options->monitor.world, "World to look at")->capture_default_str();
+  app->add_option("--domain", options->monitor.domain,
+                  "DDS domain, 0 to " + std::to_string(kDomainMax))
+      ->capture_default_str();
+  app->add_option("--timeout", options->timeout_s, "Seconds to wait for a service, 0 to 1e6")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  app->add_flag("--json", options->json, "JSON for programs: one document, or one line per event");
+  app->require_subcommand(1);
+  app->fallthrough();
+  app->footer(kExamples);
+  app->add_subcommand("status", "Service, clock, simulators, broad phase and why, refusals");
+  app->add_subcommand("agents", "Table of all agents");
+  app->add_subcommand("shapes", "Table of all shapes that agents have");
+  app->add_subcommand("earliest", "The earliest intersection that is possible now");
+  app->add_subcommand("events", "The current events")
+      ->add_flag("--follow", options->follow, "Print every further revision as it arrives");
+}
+
 int Main(int argc, char** argv) {
   CLI::App app("Shows what collisiond and the simulators of a world publish.", "collisionctl");
   Options options;
-  app.add_option("--world", options.monitor.world, "World to look at")->capture_default_str();
-  app.add_option("--domain", options.monitor.domain,
-                 "DDS domain, 0 to " + std::to_string(kDomainMax))
-      ->capture_default_str();
-  app.add_option("--timeout", options.timeout_s, "Seconds to wait for a service, 0 to 1e6")
-      ->check(CLI::Range(0.0, 1e6))
-      ->capture_default_str();
-  app.add_flag("--json", options.json, "JSON for programs: one document, or one line per event");
-  app.require_subcommand(1);
-  app.fallthrough();
-  app.footer(kExamples);
-  app.add_subcommand("status", "Service, clock, simulators, broad phase and why, refusals");
-  app.add_subcommand("agents", "Table of all agents");
-  app.add_subcommand("shapes", "Table of all shapes that agents have");
-  app.add_subcommand("earliest", "The earliest intersection that is possible now");
-  app.add_subcommand("events", "The current events")
-      ->add_flag("--follow", options.follow, "Print every further revision as it arrives");
+  AddViews(&app, &options);
   std::string evicted;
   CLI::App* evict = app.add_subcommand("evict", "Remove a simulator, also if its process lives");
   evict->add_option("NAME", evicted, "Its name")->required();
