@@ -44,7 +44,7 @@ class Scene {
   HeapUse heap(Owner owner) const;
   const v1::Config& config() const { return config_; }
   const Network& network() const { return network_; }
-  const ServiceProgram& service(std::size_t i) const { return *services_[i]; }
+  const ServiceProgram& service(std::size_t i = 0) const { return *services_[i]; }
   const MonitorProgram& monitor(std::size_t i) const { return *monitors_[i]; }
   std::size_t services() const { return services_.size(); }
   std::size_t monitors() const { return monitors_.size(); }

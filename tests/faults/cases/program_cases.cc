@@ -1,4 +1,6 @@
 // What may become of programs: they are killed, stand still, come again, come late, come twice.
+#include <functional>
+
 #include "server/config/config.h"
 #include "tests/faults/cases/cases.h"
 #include "tests/faults/cases/fleet.h"
@@ -196,63 +198,67 @@ void LateJoiners(const Setting& setting, Outcome* outcome) {
   }
 }
 
-/// Two services that do not hear each other at first, while all simulators hear both.
-void TwoServices(const Setting& setting, Outcome* outcome) {
+/// What happens to a run with two services; the second one is not started yet.
+using Arrange = std::function<void(Scene*, ServiceProgram* second, const Moment&)>;
+/// What must be so in the end.
+using Check = std::function<void(const Scene&, const ServiceProgram& second, std::uint64_t seed)>;
+
+void FlyWithTwoServices(const Setting& setting, const Arrange& arrange, const Check& check,
+                        Outcome* outcome) {
   for (int i = 0; i < setting.Many(6, 100); ++i) {
     const auto seed = static_cast<std::uint64_t>(i + 1);
     const Moment moment = MomentOf(seed, 30 * kSecond);
     const Fleet fleet{.network = Faulty(seed), .seed = seed};
     const auto scene = MakeScene(fleet);
-    // Of equal terms the lower id goes first: the second service takes over, or ends.
+    // Of equal terms the lower id goes first.
     ServiceProgram& second =
         scene->AddService({.state_dir = {}, .instance = i % 2 == 0 ? 100u : 10u});
     scene->StartAll();
     second.Kill();
-    scene->When(moment.at_ns, [&] {
-      second.Start();
-      Network& network = scene->network();
-      const Network::Id one = scene->service().id(), other = second.id();
-      network.Block(one, other);
-      network.Block(other, one);
-      network.After(moment.for_ns, [&network, one, other] {
-        network.Unblock(one, other);
-        network.Unblock(other, one);
-      });
-    });
+    scene->When(moment.at_ns, [&] { arrange(scene.get(), &second, moment); });
     outcome->Expect(scene->RunToEnd(600 * kSecond), Seed(seed) + "the run came to no end");
-    scene->network().Run(scene->network().now_ns() + 40 * kSecond);
-    outcome->Expect(scene->service().runs() != second.runs(),
-                    Seed(seed) + "not one of the two services was left");
-    outcome->Add("second_stayed", second.runs() ? 1 : 0);
+    scene->network().Run(scene->network().now_ns() + 50 * kSecond);
+    check(*scene, second, seed);
     ReportProgress(*scene, seed, outcome);
     JudgeAll(fleet, *scene, scene->monitor(), outcome);
   }
 }
 
+/// Two services that do not hear each other at first, while all simulators hear both.
+void TwoServices(const Setting& setting, Outcome* outcome) {
+  const Arrange arrange = [](Scene* scene, ServiceProgram* second, const Moment& moment) {
+    second->Start();
+    Network& network = scene->network();
+    const Network::Id one = scene->service().id(), other = second->id();
+    network.Block(one, other);
+    network.Block(other, one);
+    network.After(moment.for_ns, [&network, one, other] {
+      network.Unblock(one, other);
+      network.Unblock(other, one);
+    });
+  };
+  const Check check = [&](const Scene& scene, const ServiceProgram& second, std::uint64_t seed) {
+    outcome->Expect(scene.service().runs() != second.runs(),
+                    Seed(seed) + "not one of the two services was left");
+    outcome->Add("second_stayed", second.runs() ? 1 : 0);
+  };
+  FlyWithTwoServices(setting, arrange, check, outcome);
+}
+
 /// A service stands still, another one takes its place, and the first goes on.
 void Successor(const Setting& setting, Outcome* outcome) {
-  for (int i = 0; i < setting.Many(6, 100); ++i) {
-    const auto seed = static_cast<std::uint64_t>(i + 1);
-    const Moment moment = MomentOf(seed, 30 * kSecond);
-    const Fleet fleet{.network = Faulty(seed), .seed = seed};
-    const auto scene = MakeScene(fleet);
-    ServiceProgram& second =
-        scene->AddService({.state_dir = {}, .instance = i % 2 == 0 ? 100u : 10u});
-    scene->StartAll();
-    second.Kill();
-    scene->When(moment.at_ns, [&] {
-      scene->service().Suspend();
-      // Not before it counts as gone: beside a live one the second would end.
-      scene->network().After(5 * kSecond, [&] { second.Start(); });
-      scene->network().After(10 * kSecond + moment.for_ns, [&] { scene->service().Resume(); });
-    });
-    outcome->Expect(scene->RunToEnd(600 * kSecond), Seed(seed) + "the run came to no end");
-    scene->network().Run(scene->network().now_ns() + 50 * kSecond);
+  const Arrange arrange = [](Scene* scene, ServiceProgram* second, const Moment& moment) {
+    ServiceProgram* first = &scene->service();
+    first->Suspend();
+    // Not before it counts as gone: beside a live one the second would end.
+    scene->network().After(5 * kSecond, [second] { second->Start(); });
+    scene->network().After(10 * kSecond + moment.for_ns, [first] { first->Resume(); });
+  };
+  const Check check = [&](const Scene& scene, const ServiceProgram& second, std::uint64_t seed) {
     outcome->Expect(second.runs(), Seed(seed) + "the successor has not stayed");
-    outcome->Expect(!scene->service().runs(), Seed(seed) + "the former service has stayed");
-    ReportProgress(*scene, seed, outcome);
-    JudgeAll(fleet, *scene, scene->monitor(), outcome);
-  }
+    outcome->Expect(!scene.service().runs(), Seed(seed) + "the former service has stayed");
+  };
+  FlyWithTwoServices(setting, arrange, check, outcome);
 }
 
 /// A monitor reads no more while more contacts are published than wait for it.
