@@ -11,9 +11,10 @@ namespace collision::suite {
 /// How much a case does. The quick part runs with all tests.
 struct Setting {
   bool quick = true;
+  int times = 1;  ///< So many times as much of everything.
 
   /// So many of something: fewer in the quick part.
-  int Many(int in_quick, int in_full) const { return quick ? in_quick : in_full; }
+  int Many(int in_quick, int in_full) const { return times * (quick ? in_quick : in_full); }
 };
 
 /// What came out of a case: checks that hold or do not, and numbers.

@@ -18,9 +18,11 @@ namespace collision::suite {
 namespace {
 
 constexpr int kBroken = 1, kNothingToRun = 2;
+constexpr int kTimesMax = 100;
 
 struct Options {
-  bool quick = false, list = false;
+  Setting setting{.quick = false};
+  bool list = false;
   std::string json, only;
   std::vector<std::string> registered;
 };
@@ -148,7 +150,7 @@ int RunAll(const Suite& suite, const Options& options) {
   std::vector<Row> rows;
   for (const Case& one : chosen) {
     std::fprintf(stderr, "[%zu/%zu] %s\n", rows.size() + 1, chosen.size(), one.full_name().c_str());
-    rows.push_back(Run(one, {options.quick}));
+    rows.push_back(Run(one, options.setting));
     Print(rows.back());
   }
   const auto broken =
@@ -165,7 +167,11 @@ int RunAll(const Suite& suite, const Options& options) {
 int RunSuite(const Suite& suite, int argc, char** argv) {
   Options options;
   CLI::App app(suite.about);
-  app.add_flag("--quick", options.quick, "fewer and shorter");
+  app.add_flag("--quick", options.setting.quick, "fewer and shorter");
+  app.add_option("--times", options.setting.times,
+                 "so many times as many seeds, pairs or laps of each case")
+      ->check(CLI::Range(1, kTimesMax))
+      ->capture_default_str();
   app.add_flag("--list", options.list, "only name the cases");
   app.add_option("--json", options.json, "write every case, and the figures, to this file");
   app.add_option("--only", options.only, "only cases whose GROUP/NAME contains this");
