@@ -51,6 +51,7 @@ void SimulatorProgram::Start() {
                               .run = options_.run,
                               .incarnation = options_.incarnation,
                               .on_demand = options_.on_demand,
+                              .chunk_size = options_.chunk_size,
                               .wall_clock = [this] { return StampOf(network_.now_ns()); }},
                              std::move(end)));
   world_->OnEvent([this](const client::Event& event) {

@@ -46,7 +46,8 @@ struct SimulatorOptions {
   std::int64_t start_ns = 0;  ///< First step.
   std::int64_t end_ns = 10 * kSecond;
   bool on_demand = true;
-  bool joins = false;  ///< Lock-step: comes later, asks what time it is, and begins then.
+  std::uint32_t chunk_size = 0;  ///< As in client::ConnectOptions.
+  bool joins = false;            ///< Lock-step: comes later, asks what time it is, and begins then.
   std::int64_t wall_offset_ns = 0;  ///< Of its clock, without lock-step.
 };
 

@@ -85,10 +85,11 @@ void ChangesInLockStep(const Setting& setting, Outcome* outcome) {
   outcome->Expect(outcome->Get("lowered") > 0, "no promise was ever lowered");
 }
 
-void ChangesOnTheWallClock(const Setting& setting, Outcome* outcome) {
-  for (int i = 0; i < setting.Many(6, 100); ++i) {
+void ChangesOnTheWallClock(const std::function<Fleet(std::uint64_t seed)>& make, int runs,
+                           Outcome* outcome) {
+  for (int i = 0; i < runs; ++i) {
     const auto seed = static_cast<std::uint64_t>(i + 1);
-    Fleet fleet = WallFleet(seed);
+    Fleet fleet = make(seed);
     // A wider bound counts once all others know, or after the lease and twice the skew.
     fleet.flights = [](int count, std::int64_t end_ns, Random* random) {
       return Changing(count, end_ns, 5 * kSecond / 2, random);
@@ -105,18 +106,44 @@ void ChangesOnTheWallClock(const Setting& setting, Outcome* outcome) {
   outcome->Expect(outcome->Get("lowered") > 0, "no promise was ever lowered");
 }
 
+void ChangesAtLeisure(const Setting& setting, Outcome* outcome) {
+  ChangesOnTheWallClock(WallFleet, setting.Many(6, 100), outcome);
+}
+
+/// So often, and in so many samples, that some of them replace others which were lost.
+void ChangesAtAHighRate(const Setting& setting, Outcome* outcome) {
+  const auto make = [](std::uint64_t seed) {
+    Fleet fleet = WallFleet(seed);
+    fleet.network.loss = 0.3;
+    fleet.network.resend_ns = 20 * kMillisecond;
+    fleet.streams = true;
+    fleet.pace = 8;
+    fleet.chunk_size = 1;
+    return fleet;
+  };
+  ChangesOnTheWallClock(make, setting.Many(4, 40), outcome);
+  outcome->Expect(outcome->Get("overwritten") > 1000, "hardly any sample was replaced");
+}
+
 }  // namespace
 
 std::vector<Case> AgentCases() {
   const std::string promise = "no contact late or unheard, no promise covers one, brackets hold";
-  const std::string fault =
-      "a tenth lost, of samples to the service doubled, up to 5 ms of delay; agents jump, declare "
-      "three times the acceleration and use it, declare the old one again, are removed and added";
+  const std::string network =
+      "a tenth lost, of samples to the service doubled, up to 5 ms of delay";
+  const std::string changes =
+      "; agents jump, declare three times the acceleration and use it, declare the old one again, "
+      "are removed and added";
+  const std::string clocks = "; clocks off by up to 0.9 of 20 ms";
+  const std::string within = promise + ", within the bound on clocks";
   return {{"agents", "changes-lock-step",
            promise + "; the same events, bit for bit, as on a perfect network", ChangesInLockStep,
-           fault},
-          {"agents", "changes-wall-clock", promise + ", within the bound on clocks",
-           ChangesOnTheWallClock, fault + "; clocks off by up to 0.9 of 20 ms"}};
+           network + changes},
+          {"agents", "changes-wall-clock", within, ChangesAtLeisure, network + changes + clocks},
+          {"agents", "changes-high-rate", within, ChangesAtAHighRate,
+           "three tenths lost and sent again 20 ms later, while each agent writes a sample of its "
+           "own every 5 to 31 ms; up to 5 ms of delay" +
+               changes + clocks}};
 }
 
 }  // namespace collision::faults

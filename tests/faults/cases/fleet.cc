@@ -43,8 +43,9 @@ std::unique_ptr<Scene> MakeScene(const Fleet& fleet) {
       {{"alpha", 100}, {"beta", 250}, {"gamma", 40}}};
   for (std::size_t i = 0; i < names.size(); ++i) {
     options.name = names[i].first;
-    options.period_ns = names[i].second * kMillisecond;
-    options.on_demand = i < 2;
+    options.period_ns = names[i].second * kMillisecond / fleet.pace;
+    options.on_demand = !fleet.streams && i < 2;
+    options.chunk_size = fleet.chunk_size;
     options.wall_offset_ns = fleet.wall_offsets_ns[i];
     options.incarnation = static_cast<std::uint32_t>(i + 1);
     scene->AddSimulator(options, fleet.flights(fleet.agents, fleet.end_ns, &random));

@@ -20,6 +20,9 @@ struct Fleet {
   std::function<std::vector<Flight>(int count, std::int64_t end_ns, Random*)> flights = Wanderers;
   std::int64_t end_ns = 10 * kSecond;
   bool lock_step = true;
+  bool streams = false;          ///< All of them stream every state, ...
+  std::int64_t pace = 1;         ///< ... at steps so many times as short ...
+  std::uint32_t chunk_size = 0;  ///< ... in samples of so many agents; 0: the library decides.
   std::vector<std::int64_t> wall_offsets_ns = {0, 0, 0};
   bool keeps_journal = false;
   std::size_t strangers = 0;              ///< Agents that other programs may bring.
