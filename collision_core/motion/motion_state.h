@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "collision_core/base/instant.h"
 #include "collision_core/numeric/rounding.h"
@@ -47,5 +48,15 @@ struct MotionLimits {
 
 /// The larger of two bounds on the angular acceleration; < 0 (not declared) if either is.
 inline double WiderAngularBound(double a, double b) { return a < 0 || b < 0 ? -1 : a < b ? b : a; }
+
+/// Limits that allow every motion that either of the two allows.
+inline MotionLimits Wider(const MotionLimits& a, const MotionLimits& b) {
+  return {.radius = std::max(a.radius, b.radius),
+          .acceleration_max = std::max(a.acceleration_max, b.acceleration_max),
+          .time_step = std::max(a.time_step, b.time_step),
+          .speed_max = std::max(a.speed_max, b.speed_max),
+          .angular_acceleration_max =
+              WiderAngularBound(a.angular_acceleration_max, b.angular_acceleration_max)};
+}
 
 }  // namespace collision::motion

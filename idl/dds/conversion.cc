@@ -80,7 +80,8 @@ FIELDS(ServiceStamp, VALUE(service_id) VALUE(term) VALUE(epoch) VALUE(sequence))
 
 FIELDS(AgentDescription,
        VALUE(simulator_id) VALUE(slot) VALUE(incarnation) VALUE(run) VALUE(generation)
-       VALUE(revision) VALUE(sequence) TEXT(simulator_name) TEXT(agent_name) VALUE(radius_m)
+       VALUE(revision) VALUE(sequence) VALUE(states_sequence) TEXT(simulator_name)
+       TEXT(agent_name) VALUE(radius_m)
        VALUE(acceleration_max_m_s2) VALUE(angular_acceleration_max_rad_s2) VALUE(speed_max_m_s)
        VALUE(time_step_s) VALUE(group) VALUE(mask) HASH(shape_hash)
        LIST(extensions, wire::kDescriptionExtensionsMax))

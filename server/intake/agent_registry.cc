@@ -49,6 +49,7 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
                            const detection::AgentDeclaration& declaration) {
   Agent* agent = simulator->agents().Find(wire.slot());
   if (wire.revision() <= agent->revision()) return;
+  if (!world_.simulated()) KeepFormer(wire, agent);
   simulator->agents().Revise(wire.slot(), wire.revision(), declaration);
   simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, wire.slot());
   agent->description_sequence = wire.sequence();
@@ -57,6 +58,15 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
   const detection::AgentId id = simulator->IdOf(wire.slot(), agent->generation());
   detector_.Redeclare(id, agent->declaration, world_.EffectiveFrom(agent->stamp()));
   world_.AddRevision({id, wire.revision()});
+}
+
+void AgentRegistry::KeepFormer(const v1::AgentDescription& wire, Agent* agent) {
+  const std::optional<FormerDeclaration> before = std::exchange(agent->former, std::nullopt);
+  if (wire.states_sequence() <= agent->acknowledged_sequence()) return;
+  agent->former = {agent->declaration, wire.states_sequence()};
+  if (!before) return;
+  motion::MotionLimits& limits = agent->former->declaration.limits;
+  limits = motion::Wider(before->declaration.limits, limits);
 }
 
 void AgentRegistry::TakeState(Simulator* simulator, const v1::AgentStates& chunk,
@@ -84,10 +94,12 @@ void AgentRegistry::TakeState(Simulator* simulator, const v1::AgentStates& chunk
 
 void AgentRegistry::Update(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence,
                            const motion::MotionState& state) {
-  const Agent& agent = *simulator->agents().Find(slot);
+  Agent& agent = *simulator->agents().Find(slot);
   const detection::AgentId id = simulator->IdOf(slot, agent.generation());
+  agent.EndFormer(sequence);
   const detection::UpdateOutcome outcome =
       state.stamp < agent.stamp() ? detection::UpdateOutcome::kOlder
+      : agent.former              ? UpdateFormer(id, agent, state)
                                   : detector_.Update(id, state, world_.EffectiveFrom(state.stamp));
   if (outcome == detection::UpdateOutcome::kOlder) {
     ++counters_.states_older;
@@ -103,6 +115,26 @@ void AgentRegistry::Update(Simulator* simulator, std::uint32_t slot, std::uint64
             "bounds, or mark a jump as a discontinuity",
             simulator->id(), simulator->name(), slot, id.generation, state.stamp.nanoseconds()));
   }
+}
+
+// A shape that is awaited would count as this state's when it comes, and may be the next one.
+detection::AgentDeclaration AgentRegistry::FormerOf(const Agent& agent) {
+  detection::AgentDeclaration former = agent.former->declaration;
+  former.filter = agent.declaration.filter;
+  former.limits = motion::Wider(former.limits, agent.declaration.limits);
+  former.shape_awaited = false;
+  return former;
+}
+
+// What is wider in either declaration stays in force, narrower limits come with the next state.
+detection::UpdateOutcome AgentRegistry::UpdateFormer(const detection::AgentId& id,
+                                                     const Agent& agent,
+                                                     const motion::MotionState& state) {
+  const Instant effective = world_.EffectiveFrom(state.stamp);
+  detector_.Redeclare(id, FormerOf(agent), effective);
+  const detection::UpdateOutcome outcome = detector_.Update(id, state, effective);
+  detector_.Redeclare(id, agent.declaration, effective);
+  return outcome;
 }
 
 void AgentRegistry::SetWaiting(Simulator* simulator, std::uint32_t slot,
@@ -183,10 +215,16 @@ void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const Waitin
   const Instant stamp = waiting.state.stamp;
   const StampRules rules = world_.RulesForState(*simulator, false);
   if (const auto refusal = CheckStamp(id, stamp, rules)) return rejections_.Add(*refusal);
-  const detection::AgentDeclaration& declaration = simulator->agents().Find(slot)->declaration;
-  if (!detector_.Admit(id, declaration, waiting.state, world_.EffectiveFrom(stamp))) return;
+  Agent& agent = *simulator->agents().Find(slot);
+  agent.EndFormer(waiting.sequence);
+  const Instant effective = world_.EffectiveFrom(stamp);
+  const detection::AgentDeclaration& declared = agent.declaration;
+  if (!detector_.Admit(id, agent.former ? FormerOf(agent) : declared, waiting.state, effective)) {
+    return;
+  }
+  if (agent.former) detector_.Redeclare(id, declared, effective);
   ++counters_.admitted;
-  if (simulator->agents().Find(slot)->room_refused) {
+  if (agent.room_refused) {
     simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, slot);
   }
   CountAccepted(simulator);

@@ -90,6 +90,8 @@ class AgentRegistry {
                  const detection::AgentDeclaration& declaration);
   void Revise(Simulator* simulator, const v1::AgentDescription& wire,
               const detection::AgentDeclaration& declaration);
+  /// Keeps what holds for states that have not arrived, before the description becomes `agent`'s.
+  static void KeepFormer(const v1::AgentDescription& wire, Agent* agent);
   bool IsDescribed(const Simulator& simulator, std::uint32_t slot, std::uint32_t generation) const;
   /// Of the newest description of the agent in the slot, in force or not; 0: there is none.
   std::uint64_t DescriptionSequence(const Simulator& simulator, std::uint32_t slot) const;
@@ -97,6 +99,10 @@ class AgentRegistry {
   void EnactState(Simulator* simulator, std::uint32_t slot);
   void Update(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence,
               const motion::MotionState& state);
+  /// What holds for states from before the newest description.
+  static detection::AgentDeclaration FormerOf(const Agent& agent);
+  detection::UpdateOutcome UpdateFormer(const detection::AgentId& id, const Agent& agent,
+                                        const motion::MotionState& state);
   void SetWaiting(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
   void AdmitIfComplete(Simulator* simulator, std::uint32_t slot);
   void Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);

@@ -14,6 +14,12 @@
 
 namespace collision::server {
 
+/// What was declared of an agent before, for its states up to and including this sequence.
+struct FormerDeclaration {
+  detection::AgentDeclaration declaration;
+  std::uint64_t until_sequence = 0;
+};
+
 /// A described agent. It is admitted to the detector once a state and, with a simulated clock, the
 /// first clock of its simulator are there.
 ///
@@ -31,6 +37,10 @@ class Agent {
   std::string shape_hash = {};              ///< Of the shape that it refers to; empty: the ball.
   bool room_refused = false;                ///< Its owner got REJECTED_TOO_MANY_AGENTS.
   std::uint64_t description_sequence = 0;   ///< Of the description in force.
+  std::optional<FormerDeclaration> former = {};  ///< Where its states may still be on their way.
+  void EndFormer(std::uint64_t sequence) {       ///< A state of this sequence has come.
+    if (former && sequence > former->until_sequence) former.reset();
+  }
 
   std::uint32_t generation() const { return generation_; }
   std::uint32_t revision() const { return revision_; }

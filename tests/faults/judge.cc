@@ -187,7 +187,8 @@ class PairJudge {
     VisitChanges(flown, begin, [&](std::int64_t at_ns) {
       const auto told = flown.effective_ns.lower_bound(at_ns - options_.tolerance_ns);
       const std::int64_t effective = told == flown.effective_ns.end() ? at_ns : *told;
-      from = std::max(from, std::max(at_ns, effective) + options_.tolerance_ns);
+      from =
+          std::max(from, std::max(at_ns, effective) + options_.tolerance_ns + options_.hearing_ns);
     });
     return from;
   }

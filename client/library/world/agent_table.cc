@@ -59,6 +59,7 @@ void AgentTable::Describe(const AgentId& id, const AgentDescription& description
   current.set_generation(id.generation);
   current.set_revision(revision);
   current.set_sequence(++descriptions_sequence_);
+  current.set_states_sequence(states_sequence_);
   current.set_simulator_name(simulator_name_);
   census_changed_ = true;
 }
@@ -226,7 +227,7 @@ std::int64_t AgentTable::HeldBack(std::int64_t clock_ns) const {
   if (!policy_.wall_clock) return clock_ns;
   std::int64_t held_ns = clock_ns;
   for (const std::uint32_t slot : jumped_slots_) {
-    const auto jump_ns = slots_[slot].states.JumpOnItsWay();
+    const auto jump_ns = slots_[slot].states.JumpOnItsWay(clock_ns);
     if (jump_ns) held_ns = std::min(held_ns, std::max(*jump_ns, told_ns_));
   }
   return held_ns;
@@ -235,7 +236,7 @@ std::int64_t AgentTable::HeldBack(std::int64_t clock_ns) const {
 v1::SimulatorClock AgentTable::Clock(std::int64_t clock_ns, std::int64_t next_ns, bool lock_step) {
   census_changed_ = false;
   std::erase_if(jumped_slots_,
-                [&](std::uint32_t slot) { return !slots_[slot].states.JumpOnItsWay(); });
+                [&](std::uint32_t slot) { return !slots_[slot].states.JumpOnItsWay(clock_ns); });
   clock_ns_ = clock_ns;
   told_ns_ = HeldBack(clock_ns);
   v1::SimulatorClock clock;

@@ -49,9 +49,9 @@ class OutgoingStates {
   };
   const std::vector<Jump>& jumps() const { return jumps_; }
 
-  /// Stamp of the oldest jump on its way: sent, and not acknowledged although an earlier state was.
-  /// Until a state is acknowledged the agent may not be admitted, and never be.
-  std::optional<std::int64_t> JumpOnItsWay() const;
+  /// Stamp of the oldest jump on its way: sent, and not acknowledged. None while no state of the
+  /// agent has been acknowledged for kAnsweredWithin: it is not admitted then, and may never be.
+  std::optional<std::int64_t> JumpOnItsWay(std::int64_t clock_ns) const;
 
   /// Requires a staged state. `revision` is that of the agent's description.
   bool IsDue(std::int64_t clock_ns, std::uint32_t revision, const PublishPolicy& policy) const;
@@ -81,6 +81,8 @@ class OutgoingStates {
   Clearance clearance_;
   bool wanted_always_ = true;  ///< At every step; so until the service says otherwise.
   std::uint64_t acknowledged_ = 0;
+  /// While `acknowledged_` is 0: stamp of the first state, or of the last that was acknowledged.
+  std::optional<std::int64_t> unanswered_since_ns_;
 };
 
 }  // namespace collision::client

@@ -28,16 +28,6 @@ void Reshape(const History::Sample& before, const AgentDeclaration& declaration,
   if (!arrived && (!same || declaration.shape_awaited)) record->shape_redeclared = true;
 }
 
-/// Limits that allow every motion that either of the two allows.
-motion::MotionLimits Wider(const motion::MotionLimits& a, const motion::MotionLimits& b) {
-  return {.radius = std::max(a.radius, b.radius),
-          .acceleration_max = std::max(a.acceleration_max, b.acceleration_max),
-          .time_step = std::max(a.time_step, b.time_step),
-          .speed_max = std::max(a.speed_max, b.speed_max),
-          .angular_acceleration_max =
-              motion::WiderAngularBound(a.angular_acceleration_max, b.angular_acceleration_max)};
-}
-
 bool AddsGroups(const broad_phase::CollisionFilter& before,
                 const broad_phase::CollisionFilter& next) {
   return (next.group & ~before.group) != 0 || (next.mask & ~before.mask) != 0;
@@ -51,7 +41,8 @@ BoundChange ApplyDeclaration(const AgentDeclaration& declaration, AgentRecord* r
   History::Sample& in_force = record->history.newest();
   const History::Sample before = in_force;
   const motion::MotionLimits& old = before.bound.limits;
-  const motion::MotionLimits& limits = in_force.bound.limits = Wider(old, declaration.limits);
+  const motion::MotionLimits& limits = in_force.bound.limits =
+      motion::Wider(old, declaration.limits);
   const bool spins_faster = limits.angular_acceleration_max != old.angular_acceleration_max;
   Reshape(before, declaration, record);
   in_force.filter = declaration.filter;

@@ -85,8 +85,8 @@ void ChangesInLockStep(const Setting& setting, Outcome* outcome) {
   outcome->Expect(outcome->Get("lowered") > 0, "no promise was ever lowered");
 }
 
-void ChangesOnTheWallClock(const std::function<Fleet(std::uint64_t seed)>& make, int runs,
-                           Outcome* outcome) {
+void ChangesOnTheWallClock(const std::function<Fleet(std::uint64_t seed)>& make,
+                           const JudgeOptions& judge, int runs, Outcome* outcome) {
   for (int i = 0; i < runs; ++i) {
     const auto seed = static_cast<std::uint64_t>(i + 1);
     Fleet fleet = make(seed);
@@ -96,7 +96,7 @@ void ChangesOnTheWallClock(const std::function<Fleet(std::uint64_t seed)>& make,
     };
     const auto scene = MakeScene(fleet);
     Fly(fleet, scene.get(), {}, outcome);
-    Report(scene->Judged(WallJudge()), seed, outcome);
+    Report(scene->Judged(judge), seed, outcome);
     ExpectAllHeard(scene->monitor(), seed, outcome);
     ReportChanges(*scene, outcome);
     outcome->Expect(scene->service().counter("breaches") == 0,
@@ -107,7 +107,7 @@ void ChangesOnTheWallClock(const std::function<Fleet(std::uint64_t seed)>& make,
 }
 
 void ChangesAtLeisure(const Setting& setting, Outcome* outcome) {
-  ChangesOnTheWallClock(WallFleet, setting.Many(6, 100), outcome);
+  ChangesOnTheWallClock(WallFleet, WallJudge(), setting.Many(6, 100), outcome);
 }
 
 /// So often, and in so many samples, that some of them replace others which were lost.
@@ -121,7 +121,9 @@ void ChangesAtAHighRate(const Setting& setting, Outcome* outcome) {
     fleet.chunk_size = 1;
     return fleet;
   };
-  ChangesOnTheWallClock(make, setting.Many(4, 40), outcome);
+  JudgeOptions judge = WallJudge();
+  judge.hearing_ns = 200 * kMillisecond;  // Lost eight times: once in 15,000.
+  ChangesOnTheWallClock(make, judge, setting.Many(4, 40), outcome);
   outcome->Expect(outcome->Get("overwritten") > 1000, "hardly any sample was replaced");
 }
 

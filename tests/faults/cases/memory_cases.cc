@@ -254,7 +254,7 @@ void LockStep(const Setting& setting, Outcome* outcome) {
   Growth({.laps = setting.Many(32, 128)}, setting.Many(1, 4), outcome);
 }
 void WallClock(const Setting& setting, Outcome* outcome) {
-  Growth({.lock_step = false, .laps = setting.Many(16, 64)}, setting.Many(1, 2), outcome);
+  Growth({.lock_step = false, .laps = setting.Many(16, 128)}, setting.Many(1, 2), outcome);
 }
 void Visitors(const Setting& setting, Outcome* outcome) {
   Growth({.visitors = true, .laps = setting.Many(32, 64)}, setting.Many(1, 4), outcome);

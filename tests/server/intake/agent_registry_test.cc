@@ -114,12 +114,59 @@ INSTANTIATE_TEST_SUITE_P(EveryOrder, AgentRegistryOrderTest,
 class AgentRegistryWallTest : public AgentRegistryTest {
  protected:
   AgentRegistryWallTest() : AgentRegistryTest(v1::Clock::WALL) {}
+
+  /// Says that no agent accelerates any more, `states_sequence` being its newest state.
+  void DescribeAsUnaccelerated(std::uint64_t states_sequence) {
+    v1::AgentDescription wire = Description("alpha", 0);
+    wire.set_revision(2);
+    wire.set_acceleration_max_m_s2(0);
+    wire.set_states_sequence(states_sequence);
+    Describe(wire);
+  }
+  /// At rest at so many tenths of a second, 4 mm from where it was a tenth before.
+  void TakeMoved(int tenths, std::uint64_t sequence) {
+    SetTime(tenths * kSecond / 10);
+    v1::AgentState state = State(0, world.now().nanoseconds(), sequence);
+    state.mutable_position_m()->set_x(0.004 * tenths);
+    Take(state);
+  }
 };
 
 TEST_F(AgentRegistryWallTest, WithAWallClockNoClockIsAwaited) {
   Describe(0);
   Take(State(0, world.now().nanoseconds(), 1));
   EXPECT_EQ(detector.agents(), 1u);
+}
+
+TEST_F(AgentRegistryWallTest, AStateFromBeforeANarrowerBoundIsHeldToTheOneBefore) {
+  Describe(0);
+  TakeMoved(0, 1);
+  DescribeAsUnaccelerated(2);
+  TakeMoved(1, 2);
+  TakeMoved(2, 3);
+  EXPECT_EQ(detector.counters().breaches, 0u);
+  TakeMoved(3, 4);
+  EXPECT_EQ(detector.counters().breaches, 1u) << "from the first state on that came after it";
+}
+
+TEST_F(AgentRegistryWallTest, SoIsTheStateWithWhichAnAgentIsAdmitted) {
+  Describe(0);
+  DescribeAsUnaccelerated(1);
+  TakeMoved(0, 1);
+  TakeMoved(1, 2);
+  EXPECT_EQ(detector.counters().breaches, 0u);
+  TakeMoved(2, 3);
+  EXPECT_EQ(detector.counters().breaches, 1u);
+}
+
+TEST_F(AgentRegistryWallTest, WhereNoStateIsOnItsWayANarrowerBoundHoldsFromTheNextOneOn) {
+  Describe(0);
+  TakeMoved(0, 1);
+  DescribeAsUnaccelerated(1);
+  TakeMoved(1, 2);
+  EXPECT_EQ(detector.counters().breaches, 0u);
+  TakeMoved(2, 3);
+  EXPECT_EQ(detector.counters().breaches, 1u);
 }
 
 TEST_F(AgentRegistryTest, AStateWithoutADescriptionIsKeptAndReportedOnceItIsOverdue) {

@@ -181,6 +181,21 @@ TEST_F(WallClockTest, TheClockDoesNotPassAJumpThatTheServiceMayNotHave) {
   EXPECT_EQ(network_->Clocks().size(), clocks);
 }
 
+// It may have been admitted, and the answer be on its way.
+TEST_F(WallClockTest, TheClockWaitsASecondForAJumpBeforeTheFirstAnswer) {
+  Tell();
+  now_ns_ += kSecond / 4;
+  const std::int64_t jump_ns = now_ns_;
+  agent_.SetState({.stamp_ns = jump_ns, .discontinuity = true});
+  world_.Publish(now_ns_);
+  now_ns_ += kSecond / 4;
+  Tell();
+  EXPECT_EQ(LastClock().clock_ns(), jump_ns);
+  now_ns_ += kSecond / 2 + 1;
+  Tell();
+  EXPECT_EQ(LastClock().clock_ns(), now_ns_);
+}
+
 // The service may refuse it, and would not hear of any time then.
 TEST_F(WallClockTest, TheClockGoesOnBesideJumpsOfAnAgentThatIsNotAdmitted) {
   Tell();
