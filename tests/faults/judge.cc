@@ -31,20 +31,32 @@ struct Body {
 using StoryKey = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t>;
 using Stories = std::map<StoryKey, std::vector<const MonitoredEvent*>>;
 
+/// A slot in one generation, whatever the run.
+using Place = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t>;
+Place PlaceOf(const client::AgentId& id) { return {id.simulator, id.slot, id.generation}; }
+/// What the monitor was told, by pair.
+using Heard = std::map<std::pair<Place, Place>, std::vector<const MonitoredEvent*>>;
+
+std::pair<Place, Place> PairOf(const client::AgentId& a, const client::AgentId& b) {
+  return std::minmax(PlaceOf(a), PlaceOf(b));
+}
+
 bool Confirmed(EventStatus status) {
   return status == EventStatus::kConfirmed || status == EventStatus::kEnded;
 }
 
 class PairJudge {
  public:
-  PairJudge(const Body& a, const Body& b, const MonitorProgram& monitor,
-            const JudgeOptions& options, Judgement* judgement)
+  PairJudge(const Body& a, const Body& b, const Heard& heard, const JudgeOptions& options,
+            Judgement* judgement)
       : a_(a), b_(b), options_(options), result_(*judgement) {
-    for (const MonitoredEvent& heard : monitor.heard()) {
-      const Event event = client::FromMessage(heard.event);
+    const auto of_pair = heard.find(PairOf(a.flown->id, b.flown->id));
+    if (of_pair == heard.end()) return;
+    for (const MonitoredEvent* one : of_pair->second) {
+      const Event event = client::FromMessage(one->event);
       if (!IsOfPair(event)) continue;
-      const v1::ServiceStamp& stamp = heard.event.stamp();
-      stories_[{stamp.service_id(), stamp.epoch(), event.contact}].push_back(&heard);
+      const v1::ServiceStamp& stamp = one->event.stamp();
+      stories_[{stamp.service_id(), stamp.epoch(), event.contact}].push_back(one);
     }
   }
 
@@ -266,9 +278,14 @@ Judgement Judge(const std::vector<const SimulatorProgram*>& programs, const Moni
       if (flown.added_ns) bodies.push_back({program, &flown});
     }
   }
+  Heard heard;
+  for (const MonitoredEvent& one : monitor.heard()) {
+    const Event event = client::FromMessage(one.event);
+    heard[PairOf(event.lower, event.higher)].push_back(&one);
+  }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-      PairJudge(bodies[i], bodies[j], monitor, options, &judgement).Run();
+      PairJudge(bodies[i], bodies[j], heard, options, &judgement).Run();
     }
   }
   return judgement;

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "client/api/shape.h"
 #include "client/library/network/conversion.h"
 #include "client/library/network/revision_filter.h"
 #include "collision_core/detection/pairs/pair_table.h"
@@ -21,16 +22,18 @@ constexpr std::size_t kAgent = 8 << 10;       ///< In the service: states, a row
 constexpr std::size_t kClient = 48 << 10;     ///< A World or a monitor without an agent.
 constexpr std::size_t kOwnAgent = 4 << 10;    ///< In its World.
 constexpr std::size_t kRemembered = 128;      ///< A pair that a client was told of.
+constexpr std::size_t kShapeByte = 64;  ///< Of a shape as it is sent: its trees, in a service.
 constexpr std::size_t kWaitingSample = 2048;  ///< Taken from the network, and handed on.
 
 /// What a scene consists of.
 struct Size {
-  std::size_t agents = 0;      ///< At a time.
-  std::size_t pairs = 0;       ///< At a time.
-  std::size_t simulators = 0;  ///< Names.
-  std::size_t clients = 0;     ///< Worlds and monitors.
-  std::size_t own_agents = 0;  ///< In all Worlds together, over the run.
-  std::size_t told_pairs = 0;  ///< Likewise those that programs were told of.
+  std::size_t agents = 0;       ///< At a time.
+  std::size_t pairs = 0;        ///< At a time.
+  std::size_t simulators = 0;   ///< Names.
+  std::size_t clients = 0;      ///< Worlds and monitors.
+  std::size_t own_agents = 0;   ///< In all Worlds together, over the run.
+  std::size_t told_pairs = 0;   ///< Likewise those that programs were told of.
+  std::size_t shape_bytes = 0;  ///< Of all shapes together.
 };
 
 std::size_t AgentsAtATime(const Scene& scene) {
@@ -57,14 +60,19 @@ Size SizeOf(const Scene& scene, std::size_t strangers) {
       std::min<std::size_t>(size.agents * (size.agents - std::min<std::size_t>(1, size.agents)) / 2,
                             scene.config().pairs_max());
   std::set<std::string> names;
+  std::set<const client::Shape*> shapes;
   for (const SimulatorProgram* one : scene.simulators()) {
     names.insert(one->options().name);
     size.own_agents += one->flown().size();
+    for (const Flown& flown : one->flown()) {
+      if (flown.flight.shape) shapes.insert(flown.flight.shape.get());
+    }
     Pairs told;
     for (const HeardEvent& heard : one->heard())
       told.insert({heard.event.lower, heard.event.higher});
     size.told_pairs += std::min(told.size(), 2 * client::RevisionFilter::kPairsMax);
   }
+  for (const client::Shape* shape : shapes) size.shape_bytes += shape->bytes().size();
   for (std::size_t i = 0; i < scene.monitors(); ++i) {
     Pairs told;
     for (const MonitoredEvent& heard : scene.monitor(i).heard()) {
@@ -100,7 +108,8 @@ class MemoryJudge {
     const std::size_t slots = std::min<std::size_t>(
         scene_.config().pairs_max(), size_.pairs + detection::PairTable::kSlotsResting);
     const std::size_t service = kService + kSimulator * size_.simulators + kAgent * size_.agents +
-                                2 * sizeof(detection::PairRecord) * slots + waiting;
+                                2 * sizeof(detection::PairRecord) * slots +
+                                kShapeByte * size_.shape_bytes + waiting;
     const std::size_t clients = kClient * size_.clients + kOwnAgent * size_.own_agents +
                                 kRemembered * size_.told_pairs + waiting;
     JudgeOwner(Owner::kServices, "services", scene_.services() * service);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "client/api/shape.h"
 #include "idl/identity.h"
 
 namespace collision::faults {
@@ -191,10 +192,11 @@ void SimulatorProgram::Set(std::int64_t world_ns) {
 client::AgentDescription SimulatorProgram::DescriptionOf(std::size_t i,
                                                          std::int64_t world_ns) const {
   const Flight& flight = flown_[i].flight;
-  client::AgentDescription description{.name = options_.name + "-" + std::to_string(i),
-                                       .radius_m = flight.radius,
-                                       .acceleration_max_m_s2 = flight.acceleration_max,
-                                       .shape = flight.shape};
+  client::AgentDescription description{
+      .name = options_.name + "-" + std::to_string(i),
+      .radius_m = flight.shape ? flight.shape->radius_m() : flight.radius,
+      .acceleration_max_m_s2 = flight.acceleration_max,
+      .shape = flight.shape};
   for (const Declaration& change : flight.changes) {
     if (change.at_ns <= world_ns) description.acceleration_max_m_s2 = change.acceleration_max;
   }

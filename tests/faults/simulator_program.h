@@ -34,7 +34,7 @@ struct Flight {
   std::int64_t from_ns = 0;                ///< Added at the first step from then on ...
   std::int64_t until_ns = client::kNever;  ///< ... and removed at the first from then on.
   std::vector<Declaration> changes = {};   ///< Of `acceleration_max`, in their order.
-  std::shared_ptr<const client::Shape> shape = nullptr;
+  std::shared_ptr<const client::Shape> shape = nullptr;  ///< Of the same points as the ball.
 };
 
 struct SimulatorOptions {

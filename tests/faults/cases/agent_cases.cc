@@ -1,4 +1,11 @@
 // Agents that change: they jump, are described anew, come and go, and have shapes.
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/api/shape.h"
 #include "tests/faults/cases/cases.h"
 #include "tests/faults/cases/fleet.h"
 
@@ -127,6 +134,44 @@ void ChangesAtAHighRate(const Setting& setting, Outcome* outcome) {
   outcome->Expect(outcome->Get("overwritten") > 1000, "hardly any sample was replaced");
 }
 
+/// A ball as a solid, and within it a sheet of so many triangles that it is sent in two parts.
+std::shared_ptr<const client::Shape> BallWithSheet(double radius) {
+  constexpr std::uint32_t kSide = 32;
+  client::Geometry geometry{.solids = {client::Solid::Ball(radius)}};
+  const double spacing = radius / kSide;
+  for (std::uint32_t i = 0; i <= kSide; ++i) {
+    for (std::uint32_t j = 0; j <= kSide; ++j) {
+      geometry.triangles.vertices_m.push_back({spacing * i - radius / 2, spacing * j - radius / 2});
+      if (i == kSide || j == kSide) continue;
+      const std::uint32_t at = i * (kSide + 1) + j, right = at + kSide + 1;
+      geometry.triangles.indices.push_back({at, right, at + 1});
+      geometry.triangles.indices.push_back({at + 1, right, right + 1});
+    }
+  }
+  return client::Shape::Make(std::move(geometry));
+}
+
+void Shapes(const Setting& setting, Outcome* outcome) {
+  const std::array<double, 3> radii = {0.5, 0.8, 1.1};
+  std::array<std::shared_ptr<const client::Shape>, 3> shapes;
+  std::transform(radii.begin(), radii.end(), shapes.begin(), BallWithSheet);
+  outcome->Expect(shapes[0]->bytes().size() > wire::kShapePartBytes, "a shape is sent in one part");
+  for (int i = 0; i < setting.Many(2, 20); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    Fleet fleet{.network = Faulty(seed), .seed = seed};
+    fleet.flights = [&](int count, std::int64_t end_ns, Random* random) {
+      std::vector<Flight> flights = Wanderers(count, end_ns, random);
+      for (std::size_t one = 0; one < flights.size(); ++one) {
+        flights[one].radius = radii[one % 3];
+        flights[one].shape = shapes[one % 3];
+      }
+      return flights;
+    };
+    FlyAsPerfect(fleet, {}, outcome);
+  }
+  ExpectContacts(4, outcome);
+}
+
 }  // namespace
 
 std::vector<Case> AgentCases() {
@@ -141,6 +186,9 @@ std::vector<Case> AgentCases() {
   return {{"agents", "changes-lock-step",
            promise + "; the same events, bit for bit, as on a perfect network", ChangesInLockStep,
            network + changes},
+          {"agents", "shapes-lock-step",
+           promise + "; the same events, bit for bit, as on a perfect network", Shapes,
+           network + "; each agent has a shape, which is sent in two parts"},
           {"agents", "changes-wall-clock", within, ChangesAtLeisure, network + changes + clocks},
           {"agents", "changes-high-rate", within, ChangesAtAHighRate,
            "three tenths lost and sent again 20 ms later, while each agent writes a sample of its "

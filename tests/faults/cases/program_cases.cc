@@ -119,6 +119,61 @@ void SecondRun(const Setting& setting, Outcome* outcome) {
   }
 }
 
+/// So many agents that what a new service or a new run has to take in comes in many batches.
+Fleet LargeFleet(std::uint64_t seed) {
+  Fleet fleet{.network = Faulty(seed), .seed = seed, .agents = 150, .end_ns = 4 * kSecond};
+  fleet.config.set_inputs_per_batch_max(16);
+  fleet.keeps_journal = seed % 2 == 0;
+  fleet.flights = [](int count, std::int64_t end_ns, Random* random) {
+    std::vector<Flight> flights;
+    for (int i = 0; i < count; ++i) {
+      const server::WanderOptions options{.half_side = 25, .speed = 20, .acceleration_max = 4};
+      flights.push_back({.motion = server::Wander(options, end_ns, random),
+                         .radius = random->Uniform(0.4, 1.2),
+                         .acceleration_max = options.acceleration_max});
+    }
+    return flights;
+  };
+  return fleet;
+}
+
+/// The service is killed and comes back, or beta is and its second run comes, within the lease or
+/// later.
+void LargeTakeOver(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(2, 20); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    Random random(seed * 77);
+    const auto at_ns = static_cast<std::int64_t>(random.Uniform(0.5, 3) * 1e9);
+    const auto for_ns = static_cast<std::int64_t>(random.LogUniform(1e7, 1e10));
+    const Fleet fleet = LargeFleet(seed);
+    const auto scene = MakeScene(fleet);
+    SimulatorProgram* second = nullptr;
+    const auto restart_service = [&] {
+      scene->service().Kill();
+      scene->network().After(for_ns, [&] { scene->service().Start(); });
+    };
+    const auto restart_beta = [&] {
+      scene->simulator(1).Kill();
+      second = &scene->AddSimulator({.name = "beta",
+                                     .run = 5,
+                                     .incarnation = 12,
+                                     .period_ns = 250 * kMillisecond,
+                                     .end_ns = fleet.end_ns,
+                                     .joins = true},
+                                    fleet.flights(fleet.agents, fleet.end_ns, &random));
+      scene->network().After(for_ns, [&] { second->Start(); });
+    };
+    Fly(
+        fleet, scene.get(),
+        [&] { scene->When(at_ns, [&] { i % 2 == 0 ? restart_service() : restart_beta(); }); },
+        outcome);
+    outcome->Expect(second == nullptr || second->finished(), Seed(seed) + "no second run");
+    outcome->Add("second_runs", second == nullptr ? 0 : 1);
+    JudgeAll(fleet, *scene, scene->monitor(), outcome);
+  }
+  ExpectContacts(4, outcome);
+}
+
 /// Another program of beta's name, while beta lives, and killed before beta ends.
 void TwoOfOneName(const Setting& setting, Outcome* outcome) {
   for (int i = 0; i < setting.Many(4, 60); ++i) {
@@ -314,6 +369,9 @@ std::vector<Case> ProgramCases() {
        "the process of a simulator stands still for 10 ms to 40 s"},
       {"programs", "second-run", promise, SecondRun,
        "a simulator is killed, and its second run comes after 10 ms to 10 s"},
+      {"programs", "large-take-over", promise, LargeTakeOver,
+       "450 agents in batches of 16 messages: the service is killed and comes back, or a third of "
+       "them and their next run comes, after 10 ms to 10 s"},
       {"programs", "two-of-one-name", same + "; the second one is told", TwoOfOneName,
        "a program takes the name of one that lives"},
       {"programs", "released", promise, Released,
