@@ -184,7 +184,7 @@ class PairJudge {
   /// jumped or was described anew.
   template <typename Visit>
   static void VisitChanges(const Flown& flown, std::int64_t begin, const Visit& visit) {
-    if (flown.flight.from_ns > 0) visit(*flown.added_ns);
+    if (*flown.added_ns > 0) visit(*flown.added_ns);
     for (const std::int64_t jump : flown.flight.motion.jumps_ns) {
       if (*flown.added_ns < jump && jump <= begin) visit(jump);
     }

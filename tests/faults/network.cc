@@ -177,6 +177,8 @@ void Network::Arrive(Id writer, Id reader, const Sample& sample, std::uint64_t g
   const bool stuck = blocked_.contains({writer, reader}) ||
                      (lost && blocked_.contains({reader, writer})) || !line.held.empty();
   if (stuck) return line.held.push_back(sample);
+  line.cut |= lost && programs_[writer].gone;
+  if (line.cut) return;
   if (lost && !Stands(writer, sample)) {
     ++counters_.overwritten;
     return;

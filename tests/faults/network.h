@@ -123,6 +123,7 @@ class Network {
     std::int64_t last_arrival_ns = 0;
     std::uint64_t delivered = 0;  ///< The highest number.
     std::deque<Sample> held;      ///< It cannot arrive: the way is blocked.
+    bool cut = false;  ///< What was lost will never be sent again, and the rest waits behind it.
   };
   struct Link {
     bool matched = false;
