@@ -211,7 +211,8 @@ class Agent {
   void SetState(const State& state);
 
   /// Announces a changed description. A wider bound counts from clearance().effective_from_ns on
-  /// once clearance().description_counts: with a wall clock, when all others have heard of it.
+  /// once clearance().description_counts: with a wall clock, when all others have heard of it. A
+  /// narrower one counts from the next state on: set one before the next Publish().
   /// Throws std::invalid_argument as AddAgent() does.
   void SetDescription(const AgentDescription& description);
 

@@ -49,7 +49,7 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
                            const detection::AgentDeclaration& declaration) {
   Agent* agent = simulator->agents().Find(wire.slot());
   if (wire.revision() <= agent->revision()) return;
-  if (!world_.simulated()) KeepFormer(wire, agent);
+  if (!world_.RunsInRounds()) KeepFormer(wire, agent);
   simulator->agents().Revise(wire.slot(), wire.revision(), declaration);
   simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, wire.slot());
   agent->description_sequence = wire.sequence();
@@ -61,12 +61,14 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
 }
 
 void AgentRegistry::KeepFormer(const v1::AgentDescription& wire, Agent* agent) {
-  const std::optional<FormerDeclaration> before = std::exchange(agent->former, std::nullopt);
-  if (wire.states_sequence() <= agent->acknowledged_sequence()) return;
-  agent->former = {agent->declaration, wire.states_sequence()};
-  if (!before) return;
-  motion::MotionLimits& limits = agent->former->declaration.limits;
-  limits = motion::Wider(before->declaration.limits, limits);
+  FormerDeclaration former{.limits = agent->declaration.limits,
+                           .same_shape = agent->shape_hash == ShapeHashOf(wire),
+                           .until_sequence = wire.states_sequence()};
+  if (agent->former) {
+    former.limits = motion::Wider(agent->former->limits, former.limits);
+    former.same_shape = former.same_shape && agent->former->same_shape;
+  }
+  agent->former = former;
 }
 
 void AgentRegistry::TakeState(Simulator* simulator, const v1::AgentStates& chunk,
@@ -117,16 +119,18 @@ void AgentRegistry::Update(Simulator* simulator, std::uint32_t slot, std::uint64
   }
 }
 
-// A shape that is awaited would count as this state's when it comes, and may be the next one.
+// Of another shape than now nothing is known but that it is within the ball. A declaration that
+// differs from the one that follows it leaves the shape unknown until the next state.
 detection::AgentDeclaration AgentRegistry::FormerOf(const Agent& agent) {
-  detection::AgentDeclaration former = agent.former->declaration;
-  former.filter = agent.declaration.filter;
-  former.limits = motion::Wider(former.limits, agent.declaration.limits);
-  former.shape_awaited = false;
+  detection::AgentDeclaration former = agent.declaration;
+  former.limits = motion::Wider(agent.former->limits, former.limits);
+  if (agent.former->same_shape) return former;
+  former.shape_awaited = former.shape == nullptr && !former.shape_awaited;
+  former.shape = nullptr;
   return former;
 }
 
-// What is wider in either declaration stays in force, narrower limits come with the next state.
+// Wider values of either declaration stay in force. Narrower ones apply from the next state.
 detection::UpdateOutcome AgentRegistry::UpdateFormer(const detection::AgentId& id,
                                                      const Agent& agent,
                                                      const motion::MotionState& state) {

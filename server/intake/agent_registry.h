@@ -90,7 +90,7 @@ class AgentRegistry {
                  const detection::AgentDeclaration& declaration);
   void Revise(Simulator* simulator, const v1::AgentDescription& wire,
               const detection::AgentDeclaration& declaration);
-  /// Keeps what holds for states that have not arrived, before the description becomes `agent`'s.
+  /// Before the description becomes `agent`'s: what it replaces holds for states on their way.
   static void KeepFormer(const v1::AgentDescription& wire, Agent* agent);
   bool IsDescribed(const Simulator& simulator, std::uint32_t slot, std::uint32_t generation) const;
   /// Of the newest description of the agent in the slot, in force or not; 0: there is none.
@@ -99,7 +99,7 @@ class AgentRegistry {
   void EnactState(Simulator* simulator, std::uint32_t slot);
   void Update(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence,
               const motion::MotionState& state);
-  /// What holds for states from before the newest description.
+  /// The declaration for a state that was written before the newest description.
   static detection::AgentDeclaration FormerOf(const Agent& agent);
   detection::UpdateOutcome UpdateFormer(const detection::AgentId& id, const Agent& agent,
                                         const motion::MotionState& state);

@@ -16,7 +16,8 @@ namespace collision::server {
 
 /// What was declared of an agent before, for its states up to and including this sequence.
 struct FormerDeclaration {
-  detection::AgentDeclaration declaration;
+  motion::MotionLimits limits;
+  bool same_shape = false;  ///< It had the shape that it has now.
   std::uint64_t until_sequence = 0;
 };
 
@@ -37,8 +38,11 @@ class Agent {
   std::string shape_hash = {};              ///< Of the shape that it refers to; empty: the ball.
   bool room_refused = false;                ///< Its owner got REJECTED_TOO_MANY_AGENTS.
   std::uint64_t description_sequence = 0;   ///< Of the description in force.
-  std::optional<FormerDeclaration> former = {};  ///< Where its states may still be on their way.
-  void EndFormer(std::uint64_t sequence) {       ///< A state of this sequence has come.
+  /// The declaration before, while states that were written under it may still arrive.
+  std::optional<FormerDeclaration> former = {};
+
+  /// A state of this sequence has arrived.
+  void EndFormer(std::uint64_t sequence) {
     if (former && sequence > former->until_sequence) former.reset();
   }
 

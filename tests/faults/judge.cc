@@ -181,26 +181,28 @@ class PairJudge {
   }
 
   /// Calls back with each instant up to `begin` at which it was added, while others flew already,
-  /// jumped or was described anew.
+  /// jumped or was described anew, and whether its program waited until others knew.
   template <typename Visit>
   static void VisitChanges(const Flown& flown, std::int64_t begin, const Visit& visit) {
-    if (*flown.added_ns > 0) visit(*flown.added_ns);
+    if (*flown.added_ns > 0) visit(*flown.added_ns, false);
     for (const std::int64_t jump : flown.flight.motion.jumps_ns) {
-      if (*flown.added_ns < jump && jump <= begin) visit(jump);
+      if (*flown.added_ns < jump && jump <= begin) visit(jump, false);
     }
     for (const Declaration& declared : flown.flight.changes) {
-      if (*flown.added_ns < declared.at_ns && declared.at_ns <= begin) visit(declared.at_ns);
+      if (*flown.added_ns < declared.at_ns && declared.at_ns <= begin) {
+        visit(declared.at_ns, true);
+      }
     }
   }
 
   /// Since when others count it as it is at the begin.
   std::int64_t KnownFrom(const Flown& flown, std::int64_t begin) const {
     std::int64_t from = *flown.added_ns;
-    VisitChanges(flown, begin, [&](std::int64_t at_ns) {
+    VisitChanges(flown, begin, [&](std::int64_t at_ns, bool waited) {
       const auto told = flown.effective_ns.lower_bound(at_ns - options_.tolerance_ns);
       const std::int64_t effective = told == flown.effective_ns.end() ? at_ns : *told;
-      from =
-          std::max(from, std::max(at_ns, effective) + options_.tolerance_ns + options_.hearing_ns);
+      const std::int64_t hearing = waited ? 0 : options_.hearing_ns;
+      from = std::max(from, std::max(at_ns, effective) + options_.tolerance_ns + hearing);
     });
     return from;
   }

@@ -16,7 +16,7 @@ struct JudgeOptions {
   std::int64_t base_ns = 0;  ///< The world's time when virtual time, or the run, is 0.
   /// The truth is worked out in doubles, and stamps are rounded.
   std::int64_t tolerance_ns = 200;
-  /// What the service says of a change may take so long to be heard, where nobody waits for it.
+  /// What the service says of an agent that is added or jumps may take so long to be heard.
   std::int64_t hearing_ns = 0;
   double grazing = 1e-7;  ///< Overlaps below may go either way [m].
   /// In the world, less its base: contacts that begin then need no announcement, since the case

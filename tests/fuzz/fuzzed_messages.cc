@@ -150,6 +150,7 @@ v1::AgentDescription FuzzedDeclaration(const std::string& simulator, FuzzedData*
   if (spoilt & 4096) wire.set_slot(static_cast<std::uint32_t>(data->Bits(4)));
   if (spoilt & 8192) wire.set_agent_name(data->Text(80));
   if (spoilt & 16384) wire.set_simulator_name(data->Text(80));
+  if (spoilt & 32768) wire.set_states_sequence(data->Bits(2));
   return wire;
 }
 

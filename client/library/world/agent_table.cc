@@ -200,7 +200,7 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
     Slot& slot = slots_[index];
     if (IsDue(slot, clock_ns)) {
       stated_ += !slot.states.sent().has_value();
-      if (slot.states.staged()->discontinuity) jumped_slots_.push_back(index);
+      if (slot.states.sent() && slot.states.staged()->discontinuity) jumped_slots_.push_back(index);
       slot.states.MarkSent(++states_sequence_, slot.description.revision(), policy_);
       standing_sequence_ = states_sequence_;
       ++traffic_.states_sent;
@@ -263,8 +263,11 @@ bool AgentTable::SetClearance(const v1::AgentClearance& clearance, std::int64_t 
   return lowered && clearance.cause() != v1::CAUSE_NONE;
 }
 
-void AgentTable::ForgetLowerings() {
-  for (Slot& slot : slots_) slot.lowerings = 0;
+void AgentTable::BeginService() {
+  for (Slot& slot : slots_) {
+    slot.lowerings = 0;
+    slot.states.BeginService();
+  }
 }
 
 Clearance AgentTable::clearance(const AgentId& id) const {

@@ -80,7 +80,7 @@ class AgentTable {
   bool SetClearance(const v1::AgentClearance& clearance, std::int64_t now_ns);
 
   /// Another service counts lowerings anew.
-  void ForgetLowerings();
+  void BeginService();
   Clearance clearance(const AgentId& id) const;
 
   std::uint32_t size() const { return agent_count_; }

@@ -12,7 +12,7 @@ namespace {
 /// An hour [ns]: an agent with a longer period counts as one whose next state comes in an hour.
 constexpr std::uint64_t kPeriodMax = 3'600'000'000'000;
 
-/// A service that admits an agent acknowledges its state within this [ns].
+/// The clock waits at a jump this long [ns] for the first acknowledgement of an agent.
 constexpr std::uint64_t kAnsweredWithin = 1'000'000'000;
 
 /// The difference of two stamps, which fits only in an unsigned number.
@@ -73,19 +73,20 @@ void OutgoingStates::MarkSent(std::uint64_t sequence, std::uint32_t revision,
   const std::size_t kept = wire::kStatesPerChunkMax / policy.chunk_size;
   if (jumps_.size() > kept) jumps_.erase(jumps_.begin());
   sent_ = std::exchange(staged_, std::nullopt);
-  if (acknowledged_ == 0 && !unanswered_since_ns_) unanswered_since_ns_ = sent_->stamp_ns;
   sent_sequence_ = sequence;
   sent_revision_ = revision;
 }
 
 std::optional<std::int64_t> OutgoingStates::JumpOnItsWay(std::int64_t clock_ns) const {
-  if (unanswered_since_ns_ && *unanswered_since_ns_ < clock_ns &&
-      Between(*unanswered_since_ns_, clock_ns) > kAnsweredWithin) {
-    return std::nullopt;
+  const auto counts = [&](const State& jump) {
+    return answered_ || jump.stamp_ns >= clock_ns ||
+           Between(jump.stamp_ns, clock_ns) < kAnsweredWithin;
+  };
+  for (const Jump& jump : jumps_) {
+    if (counts(jump.state)) return jump.state.stamp_ns;
   }
-  if (!jumps_.empty()) return jumps_.front().state.stamp_ns;
   const bool newest = sent_ && sent_->discontinuity && sent_sequence_ > acknowledged_;
-  return newest ? std::optional(sent_->stamp_ns) : std::nullopt;
+  return newest && counts(*sent_) ? std::optional(sent_->stamp_ns) : std::nullopt;
 }
 
 void OutgoingStates::ForgetSent() {
@@ -98,11 +99,7 @@ void OutgoingStates::SetClearance(const Clearance& clearance, std::uint64_t ackn
                                   std::int64_t now_ns) {
   clearance_ = clearance;
   wanted_always_ = clearance.state_wanted_ns <= now_ns;
-  if (acknowledged > 0) {
-    unanswered_since_ns_.reset();
-  } else if (acknowledged_ > 0 && sent_) {
-    unanswered_since_ns_ = sent_->stamp_ns;
-  }
+  answered_ = acknowledged > 0;
   acknowledged_ = acknowledged;
   std::erase_if(jumps_, [&](const Jump& jump) { return jump.sequence <= acknowledged; });
 }

@@ -49,8 +49,8 @@ class OutgoingStates {
   };
   const std::vector<Jump>& jumps() const { return jumps_; }
 
-  /// Stamp of the oldest jump on its way: sent, and not acknowledged. None while no state of the
-  /// agent has been acknowledged for kAnsweredWithin: it is not admitted then, and may never be.
+  /// Stamp of the oldest jump on its way: sent, and not acknowledged. Of an agent of which the
+  /// service has acknowledged nothing only one of the last second counts: it may never be admitted.
   std::optional<std::int64_t> JumpOnItsWay(std::int64_t clock_ns) const;
 
   /// Requires a staged state. `revision` is that of the agent's description.
@@ -61,6 +61,9 @@ class OutgoingStates {
 
   /// The service has forgotten what was sent, and says nothing about the agent any more.
   void ForgetSent();
+
+  /// Another service is in force, which has acknowledged nothing.
+  void BeginService() { answered_ = false; }
 
   /// A clearance as of the service's time `now_ns`; `acknowledged`: the newest sequence in force.
   void SetClearance(const Clearance& clearance, std::uint64_t acknowledged, std::int64_t now_ns);
@@ -81,8 +84,7 @@ class OutgoingStates {
   Clearance clearance_;
   bool wanted_always_ = true;  ///< At every step; so until the service says otherwise.
   std::uint64_t acknowledged_ = 0;
-  /// While `acknowledged_` is 0: stamp of the first state, or of the last that was acknowledged.
-  std::optional<std::int64_t> unanswered_since_ns_;
+  bool answered_ = false;  ///< The service in force has acknowledged a state.
 };
 
 }  // namespace collision::client

@@ -147,7 +147,7 @@ bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t n
     gate_.Clear();
     forecasts_.Clear();
     clearances_sequence_ = 0;
-    agents_.ForgetLowerings();
+    agents_.BeginService();
     service_now_ns_ = now_ns;
     for (const v1::Output& output : others_.Take(service_.id(), now)) Handle(output, now);
   } else if (service_.epoch() != epoch) {

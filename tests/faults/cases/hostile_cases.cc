@@ -88,6 +88,7 @@ class Hostile {
         m.set_generation(Count());
         m.set_revision(Count());
         m.set_sequence(Count());
+        m.set_states_sequence(Count());
         m.set_radius_m(Number());
         m.set_acceleration_max_m_s2(Number());
         m.set_group(1);
