@@ -222,8 +222,9 @@ class Laps {
   SimulatorProgram* killed_ = nullptr;
 };
 
-/// What may be more in a later lap: capacities of vectors and deques, and what happens to wait.
-constexpr std::array<double, kOwners> kTolerance = {0, 16384, 4096};
+/// What may be more in a later lap: capacities of vectors and deques, and what happens to wait. The
+/// service has a history of each agent, which takes twice the room after a rare peak: 6 kB.
+constexpr std::array<double, kOwners> kTolerance = {0, 36864, 4096};
 
 /// In the second eighth of the run all tables are filled. What is kept after that is held against
 /// the quarter and the half of the run that follow.
@@ -265,7 +266,7 @@ void Visitors(const Setting& setting, Outcome* outcome) {
 std::vector<Case> MemoryCases() {
   const std::string promise =
       "from then on neither the service nor the clients have more bytes than in the second eighth "
-      "of the run, but for capacities (16 and 4 KiB)";
+      "of the run, but for capacities (36 and 4 KiB)";
   return {{"memory", "lock-step", promise, LockStep,
            "a tenth of all transmissions lost and of samples doubled, up to 5 ms of delay; laps of "
            "10 s, each like the first, in which 12 agents jump and are described anew, and half of "

@@ -188,6 +188,23 @@ TEST(BandQuery, AnOverlapAfterARenewalIsFreeOnlyUpToTheRenewal) {
   EXPECT_TRUE(pair->tracker.began_before());
 }
 
+// Admitted with states ahead of now, they are queried for the second time at that instant.
+TEST(BandQuery, AnOverlapFromTheAdmissionOnMayHaveBegunBefore) {
+  for (const int admitted : {4, 5}) {
+    Scene scene;
+    scene.clock.now = At(5);
+    const AgentIndex agent = scene.Add({0, 0, 0}, {0, 0, 0});
+    const AgentIndex overlapping = scene.Add({1, 0, 0}, {0, 0.001, 0});
+    scene.agents[overlapping].admitted_from = At(admitted);
+    ClearanceQuery query = scene.QueryOf(agent);
+    query.covered = query.from = At(5);
+    scene.band_query.Find(query);
+    const PairRecord* pair = scene.PairOf(agent, overlapping);
+    ASSERT_NE(pair, nullptr);
+    EXPECT_EQ(pair->tracker.began_before(), admitted == 5) << admitted;
+  }
+}
+
 TEST(BandQuery, APartnerThatARenewedAgentIsTrackedWithLearnsTheCause) {
   Scene scene;
   const AgentIndex agent = scene.Add({0, 0, 0}, {0, 0, 0});
