@@ -108,8 +108,8 @@ void BandQuery::TrackDue(const ClearanceQuery& query) {
 // its key come due with the intersection at that very state.
 void BandQuery::TrackOrSaturate(const ClearanceQuery& query, const UncoveredPartner& partner,
                                 Past past) {
-  const Instant both = UncoveredFrom(context_.agents[query.agent],
-                                     context_.agents[partner.partner], Instant::Always());
+  const Instant both = UncoveredFrom(context_.agents[query.agent], context_.agents[partner.partner],
+                                     Instant::Always());
   if (partner.free_until <= both) past = Past::kUnknown;
   if (!pairs_.Track(query.agent, partner.partner, partner.free_until, past)) {
     coverage_.Saturate(query.agent, partner.partner);
