@@ -176,6 +176,9 @@ void Intake::TakeLiveliness(const v1::Input& input) {
     if (!alive) simulator->contenders().Drop(input.sender());
     return;
   }
+  if (!alive && world_.IsWaking() && !simulator->contenders().empty()) {
+    return simulator->Doubt(world_.monotonic_ns() + kWakingTime);
+  }
   simulator->SetAlive(alive, world_.monotonic_ns());
 }
 

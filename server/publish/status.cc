@@ -139,6 +139,10 @@ void AddWaiting(const StatusSources& sources, v1::ServiceStatus* status) {
   std::vector<std::string> names = sources.world.WaitedFor();
   std::vector<std::string> reasons;
   for (const Awaited& one : sources.world.Waited()) reasons.push_back(WaitText(one, sources.world));
+  if (const std::size_t to_come = sources.world.SimulatorsToCome(); to_come > 0) {
+    names.push_back(fmt::format("simulators to come: {}", to_come));
+    reasons.push_back(names.back() + ", before time begins (clock.simulators_awaited)");
+  }
   for (const std::string& shape : sources.intake.AwaitedShapes()) {
     names.push_back(shape);
     reasons.push_back(shape + ": not there yet, or its tree is being built");

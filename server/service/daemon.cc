@@ -28,6 +28,9 @@ namespace {
 /// more than these, so that it hears what arrives meanwhile.
 constexpr int kRoundsPerStepMax = 64;
 
+/// A process that makes no step for so much longer than the status period [ns] has stood still.
+constexpr std::int64_t kStoodStill = 1'000'000'000;
+
 /// Inputs of full batches that follow one another while no clock comes into force; after so many it
 /// does all the same, so that a flood of messages does not stop everybody's time.
 constexpr std::size_t kHeldInputsMax = 1 << 20;
@@ -85,11 +88,15 @@ class Daemon::Implementation {
 
   bool Step() {
     std::vector<v1::Input> inputs;
+    const std::int64_t before_ns = world_.monotonic_ns();
     const bool goes_on = bus_.Receive(Timeout(), config_.inputs_per_batch_max(), &inputs);
     if (stopped_ || (!goes_on && inputs.empty())) return false;
     if (!bus_.recorded()) AddReadyShapes(&inputs);
     SortBatch(&inputs);
     if (!Begin(clock_.Read(), &inputs)) return false;
+    // Otherwise there is a step for each status at least.
+    const std::int64_t gap_ns = world_.monotonic_ns() - before_ns;
+    if (gap_ns > ToNanoseconds(config_.status_period_s()) + kStoodStill) world_.WakeUp();
     if (!Claim(inputs)) return false;
     if (clock_step_) FollowStep(*clock_step_);
     for (const v1::Input& input : inputs) intake_.Apply(input);

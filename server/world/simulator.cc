@@ -39,6 +39,7 @@ void Simulator::RestartTime() {
 void Simulator::SetAlive(bool alive, std::int64_t monotonic_ns) {
   if (alive || alive_) silent_since_ns_ = monotonic_ns;
   alive_ = alive;
+  doubted_until_ns_.reset();
   if (alive) released_ = false;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "server/world/agent_table.h"
@@ -50,6 +51,10 @@ class Simulator {
   bool alive() const { return alive_ && !ended_; }
   std::int64_t silent_since_ns() const { return silent_since_ns_; }  ///< Monotonic; if not alive.
   void SetAlive(bool alive, std::int64_t monotonic_ns);
+
+  /// It seems to have ended, and is taken for alive until then (monotonic) all the same.
+  void Doubt(std::int64_t until_ns) { doubted_until_ns_ = until_ns; }
+  std::optional<std::int64_t> doubted_until_ns() const { return doubted_until_ns_; }
 
   /// It was silent, or stood, for too long: the world's time does not wait for it until it is alive
   /// again or its clock moves.
@@ -104,6 +109,7 @@ class Simulator {
   bool released_ = false;
   bool ended_ = false;
   std::int64_t silent_since_ns_ = 0;
+  std::optional<std::int64_t> doubted_until_ns_;
   std::int64_t released_since_ns_ = 0;
   std::uint32_t incarnation_ = 0;
   SenderClock sender_clock_;

@@ -126,15 +126,23 @@ bool World::RunsInRounds() const {
          });
 }
 
+std::size_t World::SimulatorsToCome() const {
+  // Time that a service before this one granted has begun already, with all that were awaited.
+  const bool has_begun = started_ || silence_.roster().greatest_grant() != Instant::Always();
+  if (!simulated_ || has_begun) return 0;
+  const auto with_clock = static_cast<std::size_t>(
+      std::count_if(simulators_.begin(), simulators_.end(),
+                    [](const auto& one) { return one.second.time().clock().has_value(); }));
+  return with_clock == 0 ? 0 : simulators_awaited_ - std::min(simulators_awaited_, with_clock);
+}
+
 std::optional<Instant> World::NextNow() const {
-  std::size_t with_clock = 0;
   Instant told = Instant::Never();  // by all who hold time
   Instant first = Instant::Never();
   Instant last = Instant::Always();
   for (const auto& [id, simulator] : simulators_) {
     const SimulatorTime& time = simulator.time();
     if (!time.clock()) continue;
-    ++with_clock;
     // Who has finished and left is not waited for, but its last round counts.
     if (!simulator.holds_time() && (simulator.released() || !time.has_finished())) continue;
     told = std::min(told, time.told_until());
@@ -143,7 +151,7 @@ std::optional<Instant> World::NextNow() const {
   }
   if (first.is_never()) return std::nullopt;
   if (!started_) {
-    if (with_clock < simulators_awaited_ || !silence_.roster().complete()) return std::nullopt;
+    if (SimulatorsToCome() > 0 || !silence_.roster().complete()) return std::nullopt;
     return told >= first ? std::optional(first) : std::nullopt;
   }
   if (!RunsInRounds()) return std::max(now_, first);
@@ -162,6 +170,12 @@ void World::MoveOn() {
 }
 
 std::vector<std::string> World::ReleaseSilent() {
+  for (auto& [id, simulator] : simulators_) {
+    const auto doubted_until = simulator.doubted_until_ns();
+    if (doubted_until && *doubted_until <= monotonic_ns()) {
+      simulator.SetAlive(false, monotonic_ns());
+    }
+  }
   silence_.Update(simulators_, monotonic_ns());
   return silence_.Release(&simulators_, monotonic_ns());
 }

@@ -19,6 +19,10 @@
 
 namespace collision::server {
 
+/// How long the end of a simulator is not believed after the service itself has stood still [ns]:
+/// one that lives tells its clock again within half a second.
+inline constexpr std::int64_t kWakingTime = 1'000'000'000;
+
 /// Whether a sender may speak for a simulator id.
 struct Claim {
   Simulator* simulator = nullptr;  ///< The one that the id names; null: unknown, and no room.
@@ -88,6 +92,10 @@ class World {
   /// to wait. In rounds it is the end of the round, or the start.
   std::optional<Instant> NextNow() const;
 
+  /// Simulated clock, before time begins: how many simulators it still waits for beside those that
+  /// are there (`simulators_awaited`); 0 if none is there.
+  std::size_t SimulatorsToCome() const;
+
   /// Simulated clock: now moves there.
   void MoveTo(Instant next);
 
@@ -102,6 +110,12 @@ class World {
   /// have stood for `release_after_s` then hold time no longer. Returns the names of those released
   /// now. Call it once a step, after the inputs.
   std::vector<std::string> ReleaseSilent();
+
+  /// The process of the service has stood still until now. It has not heard anybody meanwhile, so
+  /// the end of a simulator whose name another program waits for is not believed before
+  /// kWakingTime is over.
+  void WakeUp() { woke_ns_ = monotonic_ns(); }
+  bool IsWaking() const { return woke_ns_ && monotonic_ns() - *woke_ns_ < kWakingTime; }
 
   /// Simulated clock: whom the world's time waits for.
   std::vector<Awaited> Waited() const;
@@ -199,6 +213,7 @@ class World {
   ClockReading reading_;
   WallTime wall_time_;
   Widenings widenings_;
+  std::optional<std::int64_t> woke_ns_;
 };
 
 /// Seconds of a configuration, as nanoseconds.

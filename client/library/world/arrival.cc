@@ -52,7 +52,10 @@ void Arrival::Hear(const v1::SimulatorReport& report, Time now) {
     if (report.ended() == v1::RUN_SILENT) return TakeRunAfter(run_);
     const bool behind = IsBehind();
     if (behind && !reached_) return;
-    if (!behind) resend_after_ = kResendAfter;
+    if (!behind) {
+      resend_after_ = kResendAfter;
+      refused_ = false;
+    }
     if (written_) Await(*written_, now);
   } else if (report.incarnation() != incarnation_) {
     HearOfOther(report);
@@ -79,7 +82,7 @@ void Arrival::TakeRunAfter(std::uint32_t run) {
 
 bool Arrival::TakeDue(Time now) {
   const std::chrono::seconds patience =
-      SomethingIsMissing() ? resend_after_ : std::max(resend_after_, least_);
+      SomethingIsMissing() || refused_ ? resend_after_ : std::max(resend_after_, least_);
   const bool behind = written_ && !reached_ && !waits() && now - awaited_.at >= patience;
   if (!due_ && !behind) return false;
   with_shapes_ =

@@ -15,7 +15,7 @@ namespace collision::client {
 inline constexpr std::chrono::seconds kResendAfter(1);
 inline constexpr std::chrono::seconds kResendAfterMax(8);
 
-/// In lock-step, unless something is refused because it has not arrived. What is written again
+/// In lock-step, unless something was refused, so that it must come again. What is written again
 /// while its first copy is lost on the way comes after what was written next, and a clock would
 /// count before its states: so a service that only gets no processor is given more time. The
 /// world's time stands meanwhile.
@@ -54,6 +54,9 @@ class Arrival {
 
   /// A report on this simulator, by the service in force.
   void Hear(const v1::SimulatorReport& report, Time now);
+
+  /// The service had no room for this simulator, and has taken nothing of what was written.
+  void HearOfNoRoom() { refused_ = true; }
 
   /// Whether everything must be sent again. It then counts as sent.
   bool TakeDue(Time now);
@@ -96,6 +99,7 @@ class Arrival {
   Written awaited_;                 ///< What the report must reach.
   bool reached_ = true;
   bool due_ = false;
+  bool refused_ = false;  ///< As a whole, and not all has arrived since.
   bool with_shapes_ = false;
   std::chrono::seconds least_;  ///< Before something is written again for want of a report.
   std::chrono::seconds resend_after_ = kResendAfter;

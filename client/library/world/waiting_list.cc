@@ -14,8 +14,10 @@ void WaitingList::Take(const v1::ServiceStatus& status) {
     for (std::size_t begin = 0; begin < text.size();) {
       const std::size_t end = std::min(text.find(", ", begin), text.size());
       const std::string name = text.substr(begin, end - begin);
-      // How many do not fit is no name: "+7 more". A shape is "shape 1a2b3c4d".
-      if (wire::IsName(name) || name.starts_with("shape ")) names_.push_back(name);
+      // How many do not fit is no name: "+7 more". A shape is "shape 1a2b3c4d", and how many must
+      // come before time begins "simulators to come: 1".
+      const bool is_other = name.starts_with("shape ") || name.starts_with("simulators to come: ");
+      if (wire::IsName(name) || is_other) names_.push_back(name);
       begin = end + 2;
     }
   }

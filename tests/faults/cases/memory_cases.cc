@@ -222,9 +222,9 @@ class Laps {
   SimulatorProgram* killed_ = nullptr;
 };
 
-/// What may be more in a later lap: capacities of vectors and deques, and what happens to wait. After
-/// a rare peak the list of events of one step takes 31 kB instead of 15 kB, and histories of six
-/// agents 6 kB more.
+/// What may be more in a later lap: capacities of vectors and deques, and what happens to wait.
+/// After a rare peak the list of events of one step takes 31 kB instead of 15 kB, and histories of
+/// six agents 6 kB more.
 constexpr std::array<double, kOwners> kTolerance = {0, 36864, 4096};
 
 /// In the second eighth of the run all tables are filled. What is kept after that is held against

@@ -224,6 +224,23 @@ TEST(Intake, ASuccessorWaitsForItsPredecessorsEnd) {
   EXPECT_EQ(daemon.clearance(SimulatorId("alpha")).run(), 2u);
 }
 
+// Goal:   a service that has stood still has not heard anybody: who lives keeps its name, although
+//         another program waits for it; who does not loses it a little later.
+TEST(Intake, ASuccessorGetsNoNameBecauseTheServiceStoodStill) {
+  for (const bool lives : {true, false}) {
+    ScriptedDaemon daemon(Simulated());
+    daemon.Step(AlphaJoins(kAlpha));
+    daemon.Step({From(kBeta, ClockOf("alpha", 0, 2))});
+    daemon.Step({Liveliness(kAlpha, "alpha", false)}, 5);
+    daemon.Step({From(kBeta, ClockOf("alpha", 0, 2))}, 0.4);
+    if (lives) daemon.Step({Liveliness(kAlpha, "alpha", true)}, 0.1);
+    daemon.Step({}, 1.5);
+    daemon.Step({From(kBeta, ClockOf("alpha", 0, 2))}, 1.5);
+    EXPECT_EQ(daemon.status().simulators(0).run(), lives ? 1u : 2u);
+    EXPECT_EQ(daemon.status().agents(), lives ? 2u : 0u);
+  }
+}
+
 // Goal:   nothing of a successor that dies waiting comes to life when the owner goes, also if both
 //         ends come in one batch, the owner's first: the world has the owner's run, and waits for
 //         it if it has not left.

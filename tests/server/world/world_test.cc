@@ -31,6 +31,29 @@ Simulator& Join(World* world, std::uint64_t id, std::uint64_t sender, std::int64
   return simulator;
 }
 
+// Goal:   time begins once as many simulators as are awaited are there; where it had begun before
+//         the service started, it goes on with those of the roster, however few.
+TEST(World, WhatIsAwaitedComesOnce) {
+  World world(Simulated(2));
+  EXPECT_EQ(world.SimulatorsToCome(), 0u) << "nobody waits";
+  Join(&world, 1, 10, 0);
+  EXPECT_EQ(world.SimulatorsToCome(), 1u);
+  EXPECT_EQ(world.NextNow(), std::nullopt);
+  Join(&world, 2, 20, 0);
+  EXPECT_EQ(world.SimulatorsToCome(), 0u);
+  EXPECT_EQ(world.NextNow(), At(0));
+
+  JournalledSimulator one;
+  one.id = 1;
+  one.run = 1;
+  one.granted = At(kSecond);
+  World again(Simulated(2), {one});
+  Join(&again, 1, 10, kSecond);
+  again.ReleaseSilent();
+  EXPECT_EQ(again.SimulatorsToCome(), 0u);
+  EXPECT_EQ(again.NextNow(), At(kSecond));
+}
+
 // Goal:   an id belongs to the first sender that named itself, until it is gone and a higher run
 //         comes.
 TEST(World, AnIdHasOneOwner) {

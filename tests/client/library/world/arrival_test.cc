@@ -96,6 +96,19 @@ TEST_F(ArrivalTest, InLockStepAServiceThatIsOnlyLateIsGivenMoreTime) {
   EXPECT_TRUE(DueAfter(milliseconds(0))) << "a description is missing";
 }
 
+TEST_F(ArrivalTest, InLockStepWhatFoundNoRoomIsSentAgainSoon) {
+  arrival_ = Arrival(kRun, kOwn, true);
+  Write(5, 9, 5);
+  arrival_.HearOfNoRoom();
+  EXPECT_TRUE(DueAfter(seconds(1)));
+  // It has come in since, with a clock that was told again, and without its agents.
+  Report(0, 0, 0);
+  EXPECT_TRUE(DueAfter(seconds(2)));
+  Report(5, 9, 5);
+  Write(6, 9, 5);
+  EXPECT_FALSE(DueAfter(kResendAfterInLockStep - milliseconds(1)));
+}
+
 // Goal:   in a stream the report is always behind the newest clock: that is no gap.
 TEST_F(ArrivalTest, AStreamThatIsReportedLateIsNotSentAgain) {
   Write(5, 0, 0);
