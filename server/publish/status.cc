@@ -141,7 +141,7 @@ void AddWaiting(const StatusSources& sources, v1::ServiceStatus* status) {
   for (const Awaited& one : sources.world.Waited()) reasons.push_back(WaitText(one, sources.world));
   if (const std::size_t to_come = sources.world.SimulatorsToCome(); to_come > 0) {
     names.push_back(fmt::format("simulators to come: {}", to_come));
-    reasons.push_back(names.back() + ", before time begins (clock.simulators_awaited)");
+    reasons.push_back(names.back() + " before time begins (clock.simulators_awaited)");
   }
   for (const std::string& shape : sources.intake.AwaitedShapes()) {
     names.push_back(shape);

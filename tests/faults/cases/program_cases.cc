@@ -87,6 +87,17 @@ void SuspendSimulator(const Setting& setting, Outcome* outcome) {
   Suspend(setting, false, outcome);
 }
 
+/// Of beta, not yet started.
+SimulatorProgram& AddSecondRun(const Fleet& fleet, Scene* scene, Random* random) {
+  return scene->AddSimulator({.name = "beta",
+                              .run = 5,
+                              .incarnation = 12,
+                              .period_ns = 250 * kMillisecond,
+                              .end_ns = fleet.end_ns,
+                              .joins = true},
+                             fleet.flights(fleet.agents, fleet.end_ns, random));
+}
+
 /// Beta is killed; a second run of it comes, before or after its death is noticed.
 void SecondRun(const Setting& setting, Outcome* outcome) {
   for (int i = 0; i < setting.Many(6, 100); ++i) {
@@ -101,13 +112,7 @@ void SecondRun(const Setting& setting, Outcome* outcome) {
           scene->When(moment.at_ns, [&] {
             scene->simulator(1).Kill();
             Random random(seed + 1000);
-            second = &scene->AddSimulator({.name = "beta",
-                                           .run = 5,
-                                           .incarnation = 12,
-                                           .period_ns = 250 * kMillisecond,
-                                           .end_ns = fleet.end_ns,
-                                           .joins = true},
-                                          Wanderers(fleet.agents, fleet.end_ns, &random));
+            second = &AddSecondRun(fleet, scene.get(), &random);
             scene->network().After(moment.for_ns, [&] { second->Start(); });
           });
         },
@@ -154,13 +159,7 @@ void LargeTakeOver(const Setting& setting, Outcome* outcome) {
     };
     const auto restart_beta = [&] {
       scene->simulator(1).Kill();
-      second = &scene->AddSimulator({.name = "beta",
-                                     .run = 5,
-                                     .incarnation = 12,
-                                     .period_ns = 250 * kMillisecond,
-                                     .end_ns = fleet.end_ns,
-                                     .joins = true},
-                                    fleet.flights(fleet.agents, fleet.end_ns, &random));
+      second = &AddSecondRun(fleet, scene.get(), &random);
       scene->network().After(for_ns, [&] { second->Start(); });
     };
     Fly(
