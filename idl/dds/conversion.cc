@@ -205,8 +205,12 @@ void FromWire(TopicId topic, const void* wire, v1::Input* input) {
       heard.set_term(status.stamp.term);
       heard.set_sequence(status.stamp.sequence);
       heard.set_phase(static_cast<v1::ServicePhase>(status.phase));
+      heard.set_granted_until_ns(status.granted_until_ns);
       return;
     }
+    case TopicId::kContact:
+    case TopicId::kForecast:
+      return Get(wire, input->mutable_event_heard());
     default:
       throw std::logic_error("not a topic that a service reads");
   }

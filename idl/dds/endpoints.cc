@@ -60,16 +60,20 @@ class Builder {
     }
   }
 
-  /// What other services of the world say of themselves.
-  void ReadOtherServices(const std::string& partition) {
+  /// What other services of the world say of themselves, and of contacts.
+  void ReadOtherServices(const std::string& partition, bool with_events,
+                         const dds_listener_t* listener) {
     Qos qos = MakeQos();
     dds_qset_partition1(qos.get(), partition.c_str());
     const dds_entity_t subscriber =
         Check(dds_create_subscriber(participant_, qos.get(), nullptr), "DDS subscriber");
-    const TopicRow& row = Row(TopicId::kServiceStatus);
-    Qos others = ReaderQos(row);
-    dds_qset_ignorelocal(others.get(), DDS_IGNORELOCAL_PARTICIPANT);
-    Read(row, subscriber, std::move(others), nullptr);
+    for (const TopicId topic : {TopicId::kServiceStatus, TopicId::kContact, TopicId::kForecast}) {
+      const bool is_status = topic == TopicId::kServiceStatus;
+      if (!is_status && !with_events) continue;
+      Qos others = ReaderQos(Row(topic));
+      dds_qset_ignorelocal(others.get(), DDS_IGNORELOCAL_PARTICIPANT);
+      Read(Row(topic), subscriber, std::move(others), is_status ? listener : nullptr);
+    }
   }
 
   void Write(Source source, const std::string& partition) {
@@ -111,11 +115,11 @@ class Builder {
 Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
                         dds_duration_t lease, const dds_listener_t* listener) {
   Builder builder(participant, lease);
-  const auto& [of_simulators, of_service, of_other_services, as_simulator, as_service, of_operators,
-               as_operator] = partitions;
+  const auto& [of_simulators, of_service, of_other_services, events_too, as_simulator, as_service,
+               of_operators, as_operator] = partitions;
   if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener);
   if (of_service) builder.Read(Source::kService, *of_service, nullptr);
-  if (of_other_services) builder.ReadOtherServices(*of_other_services);
+  if (of_other_services) builder.ReadOtherServices(*of_other_services, events_too, listener);
   if (as_service) builder.Write(Source::kService, *as_service);
   if (as_simulator) builder.Write(Source::kSimulators, *as_simulator);
   if (of_operators) builder.Read(Source::kOperators, *of_operators, nullptr);

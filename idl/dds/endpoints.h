@@ -14,7 +14,8 @@ namespace collision::dds {
 /// Which sides of the topics a program reads and writes, and in which partition; none: not at all.
 struct Partitions {
   std::optional<std::string> read_of_simulators, read_of_service;
-  std::optional<std::string> read_of_other_services;  ///< Their status only.
+  std::optional<std::string> read_of_other_services;  ///< Their status.
+  bool read_events_of_other_services = false;         ///< And what they publish of contacts.
   std::optional<std::string> write_as_simulator, write_as_service;
   std::optional<std::string> read_of_operators, write_as_operator;
 };
@@ -29,7 +30,7 @@ struct Endpoints {
 };
 
 /// Makes them; `lease` is that of leased writers (topics.h), and `listener` that of the readers of
-/// what simulators write. Throws std::runtime_error.
+/// what simulators write, and of the status of other services. Throws std::runtime_error.
 Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
                         dds_duration_t lease, const dds_listener_t* listener);
 

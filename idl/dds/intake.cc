@@ -39,6 +39,12 @@ const Wire& As(const void* sample) {
   return *static_cast<const Wire*>(sample);
 }
 
+void AddServiceEnd(std::uint64_t service, std::vector<v1::Input>* inputs) {
+  v1::ServiceHeard& heard = *inputs->emplace_back().mutable_service_heard();
+  heard.set_service_id(service);
+  heard.set_ended(true);
+}
+
 v1::SimulatorLiveliness& AddLiveliness(std::uint64_t sender, std::uint64_t simulator, bool alive,
                                        std::vector<v1::Input>* inputs) {
   v1::Input& input = inputs->emplace_back();
@@ -100,6 +106,7 @@ std::size_t Intake::Take(dds_entity_t reader, const TopicRow& row, std::size_t l
         Receive(reader, row, loan.sample(i), loan.info(i), inputs);
       } else if (loan.info(i).valid_data && outputs == nullptr) {
         FromWire(row.id, loan.sample(i), &inputs->emplace_back());
+        if (row.id == TopicId::kServiceStatus) FollowService(loan.info(i), inputs);
       } else if (loan.info(i).valid_data && Wanted(row, loan.sample(i))) {
         FromWire(row.id, loan.sample(i), &outputs->emplace_back());
       }
@@ -148,8 +155,22 @@ void Intake::ReceiveEnd(dds_entity_t reader, const TopicRow& row, const void* sa
   }
 }
 
+/// The last of `inputs` is a status of it.
+void Intake::FollowService(const dds_sample_info_t& info, std::vector<v1::Input>* inputs) {
+  const std::uint64_t service = inputs->back().service_heard().service_id();
+  // A status may outlast its writer in the reader: its end comes after it.
+  if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) return AddServiceEnd(service, inputs);
+  services_[info.publication_handle] = service;
+}
+
 void Intake::Follow(const std::vector<WriterChange>& changes, std::vector<v1::Input>* inputs) {
   for (const WriterChange& change : changes) {
+    if (const auto service = services_.find(change.writer); service != services_.end()) {
+      if (change.alive) continue;
+      AddServiceEnd(service->second, inputs);
+      services_.erase(service);
+      continue;
+    }
     const std::optional<std::uint64_t> sender = senders_.Of(change.reader, change.writer);
     if (!sender || !senders_.SetAlive(*sender, change.alive)) continue;
     for (const std::uint64_t simulator : senders_.SimulatorsOf(*sender)) {

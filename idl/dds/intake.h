@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "idl/dds/senders.h"
@@ -22,7 +23,7 @@ class Intake {
                    std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs);
 
   /// Reports each program that left, fell silent or is back, for every simulator for which it has
-  /// spoken. Call it after Take(): what a program wrote comes before the report of its end.
+  /// spoken, and each other service that left or fell silent. Call it after Take(): what a program wrote comes before the report of its end.
   void Follow(const std::vector<WriterChange>& changes, std::vector<v1::Input>* inputs);
 
   std::uint64_t orphaned() const { return orphaned_; }
@@ -34,10 +35,13 @@ class Intake {
                    const dds_sample_info_t& info, std::vector<v1::Input>* inputs);
   void ReceiveEnd(dds_entity_t reader, const TopicRow& row, const void* sample,
                   const dds_sample_info_t& info, std::vector<v1::Input>* inputs);
+  void FollowService(const dds_sample_info_t& info, std::vector<v1::Input>* inputs);
   bool Wanted(const TopicRow& row, const void* sample) const;
 
   const std::uint64_t own_;
   Senders senders_;
+  /// Which other service wrote a status, by writer, while that lives.
+  std::unordered_map<dds_instance_handle_t, std::uint64_t> services_;
   std::uint64_t orphaned_ = 0;
 };
 

@@ -51,6 +51,7 @@ dds::Partitions PartitionsOf(const DdsSessionOptions& options) {
     partitions.read_of_service = options.world;
   if (simulator) partitions.write_as_simulator = options.world + "." + options.simulator;
   if (service) partitions.read_of_other_services = partitions.write_as_service = options.world;
+  partitions.read_events_of_other_services = service && options.reads_events_of_services;
   const std::string of_operators = options.world + kOperatorsPartition;
   if (service) partitions.read_of_operators = of_operators;
   if (as_operator) partitions.write_as_operator = of_operators;

@@ -28,6 +28,8 @@ struct DdsSessionOptions {
   std::string simulator;  ///< kSimulator: its unique name, 1-64 of [A-Za-z0-9_-].
   bool reads_service =
       true;  ///< kMonitor: status, events, earliest intersection, clearances, rejections.
+  /// kService: reads the contacts and forecasts of other services, too.
+  bool reads_events_of_services = false;
   bool reads_simulators = false;  ///< kMonitor: descriptions, shapes, states and clocks.
 
   /// A clock or a status whose writer the network has not heard of for so long counts as gone.

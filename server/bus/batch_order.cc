@@ -23,6 +23,7 @@ struct Ordered {
 Key KeyOf(const v1::Input& input, bool reused) {
   switch (input.message_case()) {
     case v1::Input::kServiceHeard:
+    case v1::Input::kEventHeard:
     case v1::Input::kShapeReady:
     case v1::Input::kOperatorCommand:
       return {0, -1, 0};

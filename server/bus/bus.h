@@ -26,6 +26,13 @@ class Bus {
   /// Sends everything published so far. Called at the end of each step.
   virtual void Flush() = 0;
 
+  /// If this process stands still for longer than `standstill` between Receive() and what it
+  /// publishes after it, that is held back: another service may have taken over meanwhile. 0: never.
+  virtual void HoldAfter(std::chrono::nanoseconds standstill) { static_cast<void>(standstill); }
+
+  /// What is held back is published, or dropped.
+  virtual void EndHold(bool publish) { static_cast<void>(publish); }
+
   /// Ends a Receive() that waits. Any thread.
   virtual void Wake() = 0;
 

@@ -1,15 +1,18 @@
 #include "server/bus/dds_bus.h"
 
+#include <utility>
+
 namespace collision::server {
 namespace {
 
 DdsSessionOptions Options(const std::string& world, std::uint32_t domain,
-                          std::chrono::nanoseconds lease) {
+                          std::chrono::nanoseconds lease, bool stands_by) {
   DdsSessionOptions options;
   options.world = world;
   options.domain = domain;
   options.role = DdsRole::kService;
   options.lease = lease;
+  options.reads_events_of_services = stands_by;
   return options;
 }
 
@@ -22,16 +25,38 @@ v1::Counter CounterOf(const std::string& name, std::uint64_t value) {
 
 }  // namespace
 
-DdsBus::DdsBus(const std::string& world, std::uint32_t domain, std::chrono::nanoseconds lease)
-    : session_(Options(world, domain, lease)) {}
+DdsBus::DdsBus(const std::string& world, std::uint32_t domain, std::chrono::nanoseconds lease,
+               bool stands_by)
+    : session_(Options(world, domain, lease, stands_by)) {}
 
 bool DdsBus::Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                      std::vector<v1::Input>* inputs) {
   session_.Receive(timeout, limit, inputs, nullptr);
+  ran_ = std::chrono::steady_clock::now();
   return true;
 }
 
 void DdsBus::Publish(const v1::Output& output) {
+  if (standstill_.count() > 0) {
+    const auto now = std::chrono::steady_clock::now();
+    holds_ = holds_ || now - ran_ > standstill_;
+    ran_ = now;
+  }
+  if (holds_) {
+    held_.push_back(output);
+  } else {
+    Write(output);
+  }
+}
+
+void DdsBus::EndHold(bool publish) {
+  holds_ = false;
+  for (const v1::Output& output : std::exchange(held_, {})) {
+    if (publish) Write(output);
+  }
+}
+
+void DdsBus::Write(const v1::Output& output) {
   switch (output.message_case()) {
     case v1::Output::kClearance:
       return session_.Write(output.clearance());

@@ -19,8 +19,9 @@ class DdsBus final : public Bus {
   /// `lease`: how long this service may be silent before its clients count it as gone; each
   /// simulator sets its own (SimulatorLiveliness). Throws std::runtime_error, with the cause, if
   /// the world's name or the domain is out of range, or DDS is not available.
+  /// `stands_by`: it also hears of the contacts that other services publish.
   DdsBus(const std::string& world, std::uint32_t domain,
-         std::chrono::nanoseconds lease = std::chrono::seconds(2));
+         std::chrono::nanoseconds lease = std::chrono::seconds(2), bool stands_by = false);
 
   /// `limit` counts samples: a sample that also ends its instance adds a removal as a second
   /// message, and changes of liveliness come on top.
@@ -31,6 +32,8 @@ class DdsBus final : public Bus {
   void Publish(const v1::Output& output) override;
 
   void Flush() override;
+  void HoldAfter(std::chrono::nanoseconds standstill) override { standstill_ = standstill; }
+  void EndHold(bool publish) override;
   void Wake() override;
 
   /// counters(), each with "dds_" before its name.
@@ -40,7 +43,13 @@ class DdsBus final : public Bus {
   DdsCounters counters() const;
 
  private:
+  void Write(const v1::Output& output);
+
   DdsSession session_;
+  std::chrono::nanoseconds standstill_{0};
+  std::chrono::steady_clock::time_point ran_;  ///< It certainly ran then.
+  bool holds_ = false;
+  std::vector<v1::Output> held_;  ///< Of one step.
 };
 
 }  // namespace collision::server

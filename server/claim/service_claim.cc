@@ -8,6 +8,9 @@
 namespace collision::server {
 namespace {
 
+/// Of a standby that has heard of no service that serves.
+constexpr std::uint32_t kUnknownTerm = std::numeric_limits<std::uint32_t>::max();
+
 std::string Name(const HeardService& service) {
   return fmt::format("service {:016x}, term {}", service.instance, service.term);
 }
@@ -16,7 +19,7 @@ std::string Name(const HeardService& service) {
 
 void ServiceClaim::Hear(const HeardService& heard, std::int64_t now_ns) {
   if (heard.instance == options_.instance) return;
-  highest_heard_ = std::max(highest_heard_, heard.term);
+  if (heard.phase == OtherPhase::kServing) highest_heard_ = std::max(highest_heard_, heard.term);
   auto known = others_.find(heard.instance);
   if (known == others_.end()) {
     std::erase_if(others_, [&](const auto& other) {
@@ -40,47 +43,119 @@ void ServiceClaim::HearOfTerm(std::uint32_t term) {
 /// Whether `other` keeps the world and this service leaves it.
 bool ServiceClaim::GoesFirst(const HeardService& other) const {
   if (phase_ == ClaimPhase::kClaiming) {
-    return other.serving || other.instance < options_.instance;
+    // Who stands by for one that is starting may stand by for this one.
+    const bool stands_by = other.phase == OtherPhase::kStandby && other.term != kUnknownTerm;
+    return other.phase == OtherPhase::kServing || stands_by || other.instance < options_.instance;
   }
-  if (!other.serving) return false;
+  if (other.phase != OtherPhase::kServing) return false;
   return other.term != term_ ? other.term > term_ : other.instance < options_.instance;
 }
 
-void ServiceClaim::Yield(const std::string& why) {
-  phase_ = ClaimPhase::kYielded;
+void ServiceClaim::Yield(const HeardService& other, const std::string& why) {
+  standby_term_ = other.phase == OtherPhase::kServing ? other.term : kUnknownTerm;
+  phase_ = options_.stands_by ? ClaimPhase::kStandby : ClaimPhase::kYielded;
   why_ = why;
 }
 
-void ServiceClaim::Update(std::int64_t now_ns) {
-  if (phase_ == ClaimPhase::kYielded) return;
-  if (!since_ns_) since_ns_ = now_ns;
+bool ServiceClaim::HasStandby() const {
+  return std::any_of(others_.begin(), others_.end(), [](const auto& other) {
+    return other.second.newest.phase == OtherPhase::kStandby;
+  });
+}
+
+void ServiceClaim::WakeUp(std::int64_t now_ns) {
+  if (phase_ != ClaimPhase::kServing || !HasStandby()) return;
+  phase_ = ClaimPhase::kWaking;
+  since_ns_ = now_ns;
+}
+
+/// Leaves the world to another service, if there is one that goes first.
+bool ServiceClaim::Yields(std::int64_t now_ns) {
   const std::uint64_t samples_wanted = phase_ == ClaimPhase::kServing ? 2 : 1;
   for (const auto& [instance, other] : others_) {
     if (now_ns - other.heard_ns > options_.heard_for_ns) continue;
     if (other.samples < samples_wanted || !GoesFirst(other.newest)) continue;
-    if (phase_ == ClaimPhase::kServing) {
-      return Yield(Name(other.newest) + " serves this world too and goes before term " +
-                   std::to_string(term_));
+    if (phase_ != ClaimPhase::kClaiming) {
+      Yield(other.newest, Name(other.newest) + " serves this world too and goes before term " +
+                              std::to_string(term_));
+    } else if (other.newest.phase == OtherPhase::kServing) {
+      Yield(other.newest, Name(other.newest) + " serves this world");
+    } else {
+      Yield(other.newest, Name(other.newest) + (other.newest.phase == OtherPhase::kStandby
+                                                    ? " stands by in this world"
+                                                    : " is starting in this world too"));
     }
-    return Yield(Name(other.newest) +
-                 (other.newest.serving ? " serves this world" : " is starting in this world too"));
+    return true;
   }
-  if (phase_ == ClaimPhase::kServing || now_ns - *since_ns_ < options_.wait_ns) return;
-  const std::uint32_t highest = std::max(highest_heard_, options_.term_before);
+  return false;
+}
+
+/// Of two that stand by, whether the other one is to take over.
+bool ServiceClaim::WaitsFor(const Other& other) const {
+  return std::pair(other.newest.term, other.newest.instance) <
+         std::pair(standby_term_, options_.instance);
+}
+
+bool ServiceClaim::TakesOver(std::int64_t now_ns) {
+  const auto serving = std::find_if(others_.begin(), others_.end(), [](const auto& other) {
+    return other.second.newest.phase == OtherPhase::kServing;
+  });
+  if (serving != others_.end()) {
+    standby_term_ = std::min(standby_term_, serving->second.newest.term);
+    vacant_ns_.reset();
+    return false;
+  }
+  if (!vacant_ns_) vacant_ns_ = now_ns;
+  const bool waits = std::any_of(others_.begin(), others_.end(),
+                                 [this](const auto& other) { return WaitsFor(other.second); });
+  return !waits || now_ns - *vacant_ns_ >= options_.heard_for_ns;
+}
+
+void ServiceClaim::Serve(std::int64_t now_ns) {
+  if (phase_ == ClaimPhase::kStandby) took_over_ns_ = now_ns;
+  const std::uint32_t highest = std::max({highest_heard_, options_.term_before, term_});
   term_ = highest == std::numeric_limits<std::uint32_t>::max() ? highest : highest + 1;
   phase_ = ClaimPhase::kServing;
-  // What was heard before says nothing about whether it is there beside this service now.
-  others_.clear();
+  vacant_ns_.reset();
+  // What was heard of a service that serves says nothing about whether it is there beside this one.
+  std::erase_if(
+      others_, [](const auto& other) { return other.second.newest.phase != OtherPhase::kStandby; });
+}
+
+void ServiceClaim::Update(std::int64_t now_ns) {
+  if (!since_ns_) since_ns_ = now_ns;
+  switch (phase_) {
+    case ClaimPhase::kYielded:
+      return;
+    case ClaimPhase::kStandby:
+      if (TakesOver(now_ns)) Serve(now_ns);
+      return;
+    case ClaimPhase::kClaiming:
+      if (!Yields(now_ns) && now_ns - *since_ns_ >= options_.wait_ns) Serve(now_ns);
+      return;
+    case ClaimPhase::kWaking:
+      if (Yields(now_ns) || now_ns - *since_ns_ < options_.waking_ns) return;
+      phase_ = ClaimPhase::kServing;
+      return;
+    case ClaimPhase::kServing:
+      Yields(now_ns);
+      return;
+  }
 }
 
 std::optional<std::int64_t> ServiceClaim::NextDue() const {
-  if (phase_ != ClaimPhase::kClaiming || !since_ns_) return std::nullopt;
-  return *since_ns_ + options_.wait_ns;
+  if (!since_ns_) return std::nullopt;
+  if (phase_ == ClaimPhase::kClaiming) return *since_ns_ + options_.wait_ns;
+  if (phase_ == ClaimPhase::kWaking) return *since_ns_ + options_.waking_ns;
+  if (phase_ == ClaimPhase::kStandby && vacant_ns_) return *vacant_ns_ + options_.heard_for_ns;
+  return std::nullopt;
 }
 
 bool ServiceClaim::IsContended(std::int64_t now_ns) const {
+  if (took_over_ns_ && now_ns - *took_over_ns_ <= kContendedForNs) return true;
   return std::any_of(others_.begin(), others_.end(), [now_ns](const auto& other) {
-    return other.second.newest.serving && now_ns - other.second.heard_ns <= kContendedForNs;
+    return other.second.newest.phase == OtherPhase::kServing &&
+           now_ns - other.second.heard_ns <= kContendedForNs;
   });
 }
 
@@ -88,7 +163,8 @@ std::vector<std::string> ServiceClaim::Conflicts(std::int64_t now_ns) const {
   std::vector<std::string> lines;
   if (phase_ != ClaimPhase::kServing) return lines;
   for (const auto& [instance, other] : others_) {
-    if (now_ns - other.heard_ns > options_.heard_for_ns || !other.newest.serving) continue;
+    if (now_ns - other.heard_ns > options_.heard_for_ns) continue;
+    if (other.newest.phase != OtherPhase::kServing) continue;
     lines.push_back(Name(other.newest) + " publishes in this world beside term " +
                     std::to_string(term_));
   }

@@ -11,17 +11,22 @@
 
 namespace collision::server {
 
+/// What another service of this world is doing, as its status says.
+enum class OtherPhase { kClaiming, kServing, kStandby };
+
 /// One status of another service of this world.
 struct HeardService {
   std::uint64_t instance = 0;
-  std::uint32_t term = 0;
-  bool serving = false;        ///< False: it is claiming the world, like this one.
+  std::uint32_t term = 0;  ///< As ServiceClaim::term().
+  OtherPhase phase = OtherPhase::kClaiming;
   std::uint64_t sequence = 0;  ///< Of the sample.
 };
 
 enum class ClaimPhase {
   kClaiming,  ///< It listens whether anybody serves the world, and publishes nothing but its claim.
   kServing,   ///< The world is its own, in term().
+  kStandby,   ///< Another service has it; this one does the same work and publishes none of it.
+  kWaking,    ///< It served and stood still: it listens whether a standby has taken over.
   kYielded,   ///< Another service has it; why() says which.
 };
 
@@ -30,6 +35,8 @@ struct ClaimOptions {
   std::uint32_t term_before = 0;  ///< The highest that the journal knows of.
   std::int64_t wait_ns = 0;       ///< How long it listens; longer than discovery takes.
   std::int64_t heard_for_ns = 0;  ///< How long a status counts as a sign of life: its lease.
+  bool stands_by = false;         ///< Beside another service it waits for its end, and takes over.
+  std::int64_t waking_ns = 0;     ///< How long it listens after it has stood still.
   /// Whom the service before this one served, as the journal has it.
   std::vector<JournalledSimulator> roster = {};
 };
@@ -41,7 +48,16 @@ struct ClaimOptions {
 /// it stays there, and the instance alone decides.
 ///
 /// Whoever serves yields only to a service that it has heard twice, so that one stray sample ends
-/// nobody. Pure bookkeeping: it reads no clock; times are nanoseconds of the monotonic one. One
+/// nobody.
+///
+/// **Standby.** With `stands_by` it does not end: it takes over, in a new term, when the network
+/// says that the one that serves is gone (HearEnd()). Of several standbys the one does that came in
+/// the lowest term, of these the one with the lowest instance; the others do if it has not within
+/// heard_for_ns. A service that stood still may have been replaced meanwhile: WakeUp() keeps it
+/// from publishing anything before it has listened, and it then yields to one that it hears once.
+/// Whoever has yielded stands by again.
+///
+/// Pure bookkeeping: it reads no clock; times are nanoseconds of the monotonic one. One
 /// thread.
 class ServiceClaim {
  public:
@@ -49,6 +65,12 @@ class ServiceClaim {
 
   /// Takes a status that has arrived. Its own is ignored.
   void Hear(const HeardService& heard, std::int64_t now_ns);
+
+  /// The network says that this service has ended, or has not kept its lease.
+  void HearEnd(std::uint64_t instance) { others_.erase(instance); }
+
+  /// This process stood still. Does nothing unless it serves and a standby was heard.
+  void WakeUp(std::int64_t now_ns);
 
   /// A simulator follows, or has followed, a service of this term, which may be gone or stand
   /// still: this one goes before it, once it serves. The greatest number is no sign of one.
@@ -58,16 +80,26 @@ class ServiceClaim {
   void Update(std::int64_t now_ns);
 
   ClaimPhase phase() const { return phase_; }
-  std::uint32_t term() const { return term_; }  ///< 0 until it serves.
+
+  /// The term in which it serves, or of the service beside which it began to stand by (the greatest
+  /// number: it has heard only of another standby); 0: neither.
+  std::uint32_t term() const { return phase_ == ClaimPhase::kStandby ? standby_term_ : term_; }
   std::uint64_t instance() const { return options_.instance; }
 
-  /// kYielded: the other service, in words for the log and standard error.
+  /// It does all the work of a service, whether it publishes it or not.
+  bool works() const { return phase_ == ClaimPhase::kServing || phase_ == ClaimPhase::kStandby; }
+
+  /// Another service stands by for this one.
+  bool HasStandby() const;
+
+  /// kYielded, kStandby: the other service, in words for the log and standard error.
   const std::string& why() const { return why_; }
 
   /// When Update() changes something although nothing is heard; nullopt: never.
   std::optional<std::int64_t> NextDue() const;
 
-  /// Whether another service was heard to serve this world within kContendedForNs.
+  /// Whether another service was heard to serve this world within kContendedForNs, or has been
+  /// replaced by this one since.
   bool IsContended(std::int64_t now_ns) const;
 
   /// Serving: one line for each live service that serves this world too and will yield, or has an
@@ -82,12 +114,19 @@ class ServiceClaim {
   };
 
   bool GoesFirst(const HeardService& other) const;
-  void Yield(const std::string& why);
+  bool Yields(std::int64_t now_ns);
+  bool TakesOver(std::int64_t now_ns);
+  bool WaitsFor(const Other& other) const;
+  void Serve(std::int64_t now_ns);
+  void Yield(const HeardService& other, const std::string& why);
 
   const ClaimOptions options_;
   ClaimPhase phase_ = ClaimPhase::kClaiming;
-  std::optional<std::int64_t> since_ns_;
+  std::optional<std::int64_t> since_ns_;  ///< Of the claim, or of the waking.
+  std::optional<std::int64_t> took_over_ns_;
+  std::optional<std::int64_t> vacant_ns_;  ///< Since when nobody serves; while it stands by.
   std::uint32_t term_ = 0;
+  std::uint32_t standby_term_ = 0;
   std::uint32_t highest_heard_ = 0;
   std::string why_;
   std::map<std::uint64_t, Other> others_;  ///< By instance; at most kOthersMax.

@@ -168,9 +168,15 @@ constexpr ConfigOption kOptions[] = {
      "it, END ends the service with 74. It is logged either way. END needs a folder of the "
      "journal."},
     {"claim_wait_s", "s", "0", "60", "", "0.5",
-     "How long a service that starts listens whether another one serves the world, in which case "
-     "it "
-     "ends. Longer than the network needs to find it."},
+     "How long a service that starts listens whether another one serves the world (on_occupied). "
+     "Longer than the network needs to find it."},
+    {"on_occupied", "none", "", "", "LEAVE or STAND_BY", "LEAVE",
+     "Where another service serves the world: LEAVE ends with 75. STAND_BY stays, does the same "
+     "work, publishes nothing of it, and takes over when the other one ends, falls silent or "
+     "cannot be reached for its lease_s."},
+    {"lease_s", "s", "0.05", "2", "", "2",
+     "The network counts this service as gone when it has not been heard for so long; a standby "
+     "then takes over. Under 0.1 a busy machine gives false alarms."},
 };
 
 class Silent final : public google::protobuf::io::ErrorCollector {

@@ -38,6 +38,7 @@ void Intake::Apply(const v1::Input& input) {
     case v1::Input::kShapeReady:
       return agent_shapes_.TakeReady(input.shape_ready());
     case v1::Input::kServiceHeard:     // for the claim
+    case v1::Input::kEventHeard:       // for the publisher
     case v1::Input::kOperatorCommand:  // for the OperatorCommands
     case v1::Input::MESSAGE_NOT_SET:
       return;
@@ -127,6 +128,7 @@ void Intake::TakeClock(const v1::Input& input) {
   }
   // A clock that is only repeated is no progress.
   if (std::get<Instant>(decoded) > time.newest() || time.awaits_own_clock()) simulator->Resume();
+  NoteFollower(wire);
   if (wire.service_id() == instance_) {
     simulator->agents().clearances().Acknowledge(wire.clearances_sequence(), world_.monotonic_ns(),
                                                  contended_);
@@ -140,6 +142,12 @@ void Intake::TakeClock(const v1::Input& input) {
        .lock_step = wire.lock_step(),
        .agents = wire.agents()});
   simulator->refusals().Accept(v1::TOPIC_SIMULATOR_CLOCK, 0);
+}
+
+void Intake::NoteFollower(const v1::SimulatorClock& clock) {
+  Simulator* simulator = world_.Find(clock.simulator_id());
+  if (simulator == nullptr || simulator->run() != clock.run()) return;
+  if (clock.service_id() == instance_ || clock.service_id() == 0) simulator->SetFollows(true);
 }
 
 bool Intake::MayRemove(const Simulator& simulator, const v1::Input& input, bool is_owners,

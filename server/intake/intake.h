@@ -40,6 +40,9 @@ class Intake {
 
   void Apply(const v1::Input& input);
 
+  /// Whether this clock says that its simulator follows this service (Simulator::follows()).
+  void NoteFollower(const v1::SimulatorClock& clock);
+
   /// Whether another service publishes in this world, or did lately (Clearances::Acknowledge()).
   void SetContended(bool contended) { contended_ = contended; }
 

@@ -135,6 +135,18 @@ void EventFilter::Release(Instant now, std::vector<Telling>* tellings) {
   }
 }
 
+std::vector<Telling> EventFilter::Standing() const {
+  std::vector<Telling> tellings;
+  for (const auto& [slot, pair] : pairs_) {
+    if (pair.contact) {
+      tellings.push_back({*pair.contact, true});
+    } else if (pair.forecast) {
+      tellings.push_back({*pair.forecast, false});
+    }
+  }
+  return tellings;
+}
+
 void EventFilter::Forget() {
   pairs_.clear();
   queue_.clear();

@@ -54,6 +54,9 @@ class EventFilter {
   std::vector<Telling> Take(const std::vector<detection::CollisionEvent>& events, Instant now,
                             std::int64_t time_ns);
 
+  /// What stands told and is not over, by pair: of each its contact, or else its forecast.
+  std::vector<Telling> Standing() const;
+
   /// The detector and its time begin anew.
   void Forget();
 

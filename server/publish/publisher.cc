@@ -10,6 +10,17 @@
 namespace collision::server {
 namespace {
 
+v1::ServicePhase PhaseOf(const ServiceClaim& claim) {
+  switch (claim.phase()) {
+    case ClaimPhase::kServing:
+      return v1::PHASE_SERVING;
+    case ClaimPhase::kStandby:
+      return v1::PHASE_STANDBY;
+    default:
+      return v1::PHASE_CLAIMING;
+  }
+}
+
 /// What stands until it is acknowledged, in place of what the detector told once.
 void Set(const Lowering& lowering, v1::AgentClearance* wire) {
   wire->set_lowerings(lowering.count);
@@ -75,33 +86,60 @@ void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t ch
     v1::AgentClearance& wire = *clearance.add_agents() =
         Encode(next->second, agent.acknowledged_sequence(), agent.acknowledged_revision(), wanted);
     wire.set_effective_from_ns(
-        std::max(next->second.effective_from, agent.acknowledged_from()).nanoseconds());
+        std::max({next->second.effective_from, agent.acknowledged_from(), world.promised_from()})
+            .nanoseconds());
     Set(lowerings.Of(next->first), &wire);
   }
   bus_.Publish(output);
 }
 
-void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events,
-                              const World& world) {
+std::vector<Telling> Publisher::Filter(const std::vector<detection::CollisionEvent>& events,
+                                       const World& world) {
   for (const detection::CollisionEvent& event : events) {
     event_log_.Add(Encode(event, world.ended_runs()));
   }
   // By the world's time where that is simulated, so that a run at any speed tells the same.
   const std::int64_t time_ns = world.simulated() ? world.now().nanoseconds() : world.monotonic_ns();
-  for (const Telling& telling : filter_.Take(events, world.now(), time_ns)) {
-    v1::Output output;
-    v1::CollisionEvent& event = *output.mutable_collision_event();
-    event = Encode(telling.event, world.ended_runs());
-    ++(telling.contact ? events_.contacts : events_.forecasts);
-    if (telling.contact) {
-      // One instance holds the history of all contacts.
-      event.set_pair_slot(0);
-      event.set_contacts_sequence(events_.contacts);
-    }
-    *event.mutable_stamp() = NextStamp();
-    if (!telling.contact) newest_forecast_ = event.stamp().sequence();
-    bus_.Publish(output);
+  return filter_.Take(events, world.now(), time_ns);
+}
+
+void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events,
+                              const World& world) {
+  for (const Telling& telling : Filter(events, world)) Publish(telling, world);
+}
+
+void Publisher::NoteEvents(const std::vector<detection::CollisionEvent>& events,
+                           const World& world) {
+  for (const Telling& telling : Filter(events, world)) {
+    if (telling.contact) inherited_.Keep(telling.event);
   }
+}
+
+void Publisher::PublishInherited(const World& world) {
+  std::set<std::uint32_t> told;
+  for (const detection::CollisionEvent& contact : inherited_.TakeUntold()) {
+    told.insert(contact.pair_slot);
+    Publish({contact, true}, world);
+  }
+  for (const Telling& telling : filter_.Standing()) {
+    if (!telling.contact || !told.contains(telling.event.pair_slot)) Publish(telling, world);
+  }
+}
+
+void Publisher::Publish(const Telling& telling, const World& world) {
+  v1::Output output;
+  v1::CollisionEvent& event = *output.mutable_collision_event();
+  event = Encode(telling.event, world.ended_runs());
+  event.set_contact(inherited_.NumberOf(telling.event));
+  ++(telling.contact ? events_.contacts : events_.forecasts);
+  if (telling.contact) {
+    // One instance holds the history of all contacts.
+    event.set_pair_slot(0);
+    event.set_contacts_sequence(events_.contacts);
+  }
+  *event.mutable_stamp() = NextStamp();
+  if (!telling.contact) newest_forecast_ = event.stamp().sequence();
+  bus_.Publish(output);
 }
 
 EventCounters Publisher::event_counters() const {
@@ -149,7 +187,7 @@ void Publisher::BeginEpoch(std::uint32_t epoch) {
 void Publisher::PublishStatus(v1::ServiceStatus status) {
   v1::Output output;
   status.set_service_id(claim_.instance());
-  status.set_phase(claim_.phase() == ClaimPhase::kServing ? v1::PHASE_SERVING : v1::PHASE_CLAIMING);
+  status.set_phase(PhaseOf(claim_));
   *status.mutable_stamp() = NextStamp();
   *output.mutable_service_status() = std::move(status);
   bus_.Publish(output);

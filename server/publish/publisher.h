@@ -9,6 +9,7 @@
 #include "server/claim/service_claim.h"
 #include "server/publish/event_filter.h"
 #include "server/publish/event_log.h"
+#include "server/publish/inherited_events.h"
 #include "server/publish/state_demand.h"
 #include "server/world/world.h"
 
@@ -37,6 +38,14 @@ class Publisher {
   /// hears first whom it has met.
   void PublishEvents(const std::vector<detection::CollisionEvent>& events, const World& world);
 
+  /// A standby: takes note of what it would publish, and of what the service in force does.
+  void NoteEvents(const std::vector<detection::CollisionEvent>& events, const World& world);
+  void Hear(const v1::CollisionEvent& event) { inherited_.Hear(event); }
+
+  /// It has taken over: publishes the contacts that the other service has not, and what stands told
+  /// of pairs whose event is not over; readers know which of these they have heard.
+  void PublishInherited(const World& world);
+
   /// Publishes the answer if it differs from the last one published.
   void PublishEarliest(const detection::EarliestAnswer& answer, Instant now);
 
@@ -57,6 +66,9 @@ class Publisher {
 
  private:
   v1::ServiceStamp NextStamp();
+  std::vector<Telling> Filter(const std::vector<detection::CollisionEvent>& events,
+                              const World& world);
+  void Publish(const Telling& telling, const World& world);
   void PublishChunk(const World& world, Simulator* to, std::uint32_t chunk);
 
   const ServiceClaim& claim_;
@@ -67,6 +79,7 @@ class Publisher {
   std::uint64_t newest_forecast_ = 0;  ///< Its sequence; 0: there was none.
   EventLog event_log_;
   EventFilter filter_;
+  InheritedEvents inherited_;
   EventCounters events_;
   std::optional<v1::EarliestIntersection> earliest_;
 };

@@ -41,6 +41,8 @@ RecordingWriter::RecordingWriter(const std::string& path, const v1::Config& conf
   claimed.set_term_before(claim.term_before);
   claimed.set_wait_ns(claim.wait_ns);
   claimed.set_heard_for_ns(claim.heard_for_ns);
+  claimed.set_stands_by(claim.stands_by);
+  claimed.set_waking_ns(claim.waking_ns);
   for (const JournalledSimulator& simulator : claim.roster) {
     v1::RosterEntry& entry_of_roster = *claimed.add_roster();
     entry_of_roster.set_id(simulator.id);
@@ -109,7 +111,10 @@ RecordingReader::RecordingReader(const std::string& path)
   claim_ = {.instance = claimed.instance(),
             .term_before = claimed.term_before(),
             .wait_ns = claimed.wait_ns(),
-            .heard_for_ns = claimed.heard_for_ns()};
+            .heard_for_ns = claimed.heard_for_ns(),
+            .stands_by = claimed.stands_by(),
+            .waking_ns = claimed.waking_ns(),
+            .roster = {}};
   for (const v1::RosterEntry& of_roster : claimed.roster()) {
     JournalledSimulator& simulator = claim_.roster.emplace_back();
     simulator.id = of_roster.id();

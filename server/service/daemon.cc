@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <utility>
 
 #include "idl/limits.h"
 #include "server/bus/batch_order.h"
 #include "server/config/config.h"
 #include "server/intake/intake.h"
+#include "server/intake/later_rounds.h"
 #include "server/process/logging.h"
 #include "server/publish/publisher.h"
 #include "server/publish/reports.h"
@@ -34,6 +36,17 @@ constexpr std::int64_t kStoodStill = 1'000'000'000;
 /// Inputs of full batches that follow one another while no clock comes into force; after so many it
 /// does all the same, so that a flood of messages does not stop everybody's time.
 constexpr std::size_t kHeldInputsMax = 1 << 20;
+
+OtherPhase PhaseOf(const v1::ServiceHeard& heard) {
+  switch (heard.phase()) {
+    case v1::PHASE_CLAIMING:
+      return OtherPhase::kClaiming;
+    case v1::PHASE_STANDBY:
+      return OtherPhase::kStandby;
+    default:
+      return OtherPhase::kServing;
+  }
+}
 
 /// A recording from before the field has none set.
 broad_phase::BroadPhaseMethod MethodOf(v1::Config::BroadPhase method) {
@@ -70,6 +83,7 @@ class Daemon::Implementation {
         clock_(clock),
         recorder_(parts.recorder),
         journal_(config_, parts.journal),
+        open_journal_(std::move(parts.open_journal)),
         state_failure_(parts.state_failure),
         claim_(parts.claim),
         shape_builder_(parts.shape_builder
@@ -97,13 +111,15 @@ class Daemon::Implementation {
     // Otherwise there is a step for each status at least.
     const std::int64_t gap_ns = world_.monotonic_ns() - before_ns;
     if (gap_ns > ToNanoseconds(config_.status_period_s()) + kStoodStill) world_.WakeUp();
+    if (gap_ns > Standstill()) claim_.WakeUp(world_.monotonic_ns());
     if (!Claim(inputs)) return false;
     if (clock_step_) FollowStep(*clock_step_);
-    for (const v1::Input& input : inputs) intake_.Apply(input);
+    for (const v1::Input& input : inputs) Apply(input);
     batch_was_full_ = IsFull(inputs);
     held_inputs_ =
         batch_was_full_ && held_inputs_ < kHeldInputsMax ? held_inputs_ + inputs.size() : 0;
     if (held_inputs_ == 0) intake_.TakeClocks();
+    ApplyKept();
     const bool restarts = ObeyOperators(inputs);
     const bool removed = RemoveSilent();
     ReportSilence(world_.ReleaseSilent());
@@ -114,6 +130,8 @@ class Daemon::Implementation {
     if (claim_.phase() == ClaimPhase::kServing) {
       if (!KeepState(journal_.Keep(world_))) return false;
       PublishAnswers();
+    } else {
+      static_cast<void>(rejections_.Take());
     }
     PublishStatus();
     bus_.Flush();
@@ -155,19 +173,28 @@ class Daemon::Implementation {
   /// The time until something is due without any input.
   std::chrono::nanoseconds Timeout() const {
     if (shape_builder_->has_finished() || batch_was_full_) return std::chrono::nanoseconds(0);
-    if (world_.RunsInRounds() && NextRound()) return std::chrono::nanoseconds(0);
+    if (claim_.works() && world_.RunsInRounds() && NextRound()) {
+      return std::chrono::nanoseconds(0);
+    }
+    const bool serves = claim_.phase() == ClaimPhase::kServing;
     std::int64_t due = schedule_.next_ns();
+    if (claim_.phase() == ClaimPhase::kWaking) due = world_.monotonic_ns() + Standstill();
     if (const auto next = intake_.NextDue()) due = std::min(due, *next);
     if (const auto next = world_.NextRelease()) due = std::min(due, *next);
-    if (const auto next = world_.NextRevision()) due = std::min(due, *next);
+    if (const auto next = world_.NextRevision(); next && serves) due = std::min(due, *next);
     if (const auto next = claim_.NextDue()) due = std::min(due, *next);
-    if (const auto next = reports_.next_ns()) due = std::min(due, *next);
+    if (const auto next = reports_.next_ns(); next && serves) due = std::min(due, *next);
     std::int64_t wait = due - world_.monotonic_ns();
     if (!world_.simulated()) {
       wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()));
     }
+    // It must know that it has stood still for half a lease.
+    if (claim_.HasStandby()) wait = std::min(wait, Standstill() / 2);
     return std::chrono::nanoseconds(std::max<std::int64_t>(wait, 0));
   }
+
+  /// A service that stands still for so long [ns] may be replaced before it has noticed it.
+  std::int64_t Standstill() const { return ToNanoseconds(config_.lease_s()) / 2; }
 
   /// Takes the time of this step and records what it applies. False: it could not be recorded.
   bool Begin(const ClockReading& reading, std::vector<v1::Input>* inputs) {
@@ -192,13 +219,10 @@ class Daemon::Implementation {
     const std::int64_t now_ns = world_.monotonic_ns();
     for (const v1::Input& input : inputs) {
       if (input.has_simulator_clock()) claim_.HearOfTerm(input.simulator_clock().service_term());
-      if (!input.has_service_heard()) continue;
-      const v1::ServiceHeard& heard = input.service_heard();
-      claim_.Hear({.instance = heard.service_id(),
-                   .term = heard.term(),
-                   .serving = heard.phase() != v1::PHASE_CLAIMING,
-                   .sequence = heard.sequence()},
-                  now_ns);
+      if (input.has_event_heard() && claim_.phase() != ClaimPhase::kServing) {
+        publisher_.Hear(input.event_heard());
+      }
+      if (input.has_service_heard()) HearService(input.service_heard());
     }
     const ClaimPhase before = claim_.phase();
     claim_.Update(now_ns);
@@ -206,15 +230,59 @@ class Daemon::Implementation {
       Log(spdlog::level::warn, "two services in one world", conflict);
     }
     intake_.SetContended(claim_.IsContended(now_ns));
-    if (claim_.phase() == ClaimPhase::kServing && before == ClaimPhase::kClaiming) BeginTerm();
+    if (claim_.phase() != before) ChangePhase(before);
+    if (claim_.phase() == ClaimPhase::kStandby) {
+      world_.StandBy(std::max(heard_granted_, later_.newest_clock()));
+      follows_rounds_ = true;
+    }
+    bus_.HoldAfter(std::chrono::nanoseconds(claim_.HasStandby() ? Standstill() : 0));
     return claim_.phase() != ClaimPhase::kYielded;
   }
 
+  void HearService(const v1::ServiceHeard& heard) {
+    if (heard.ended()) return claim_.HearEnd(heard.service_id());
+    claim_.Hear({.instance = heard.service_id(),
+                 .term = heard.term(),
+                 .phase = PhaseOf(heard),
+                 .sequence = heard.sequence()},
+                world_.monotonic_ns());
+    if (heard.phase() != v1::PHASE_SERVING) return;
+    heard_granted_ = Instant::FromNanoseconds(heard.granted_until_ns());
+  }
+
+  void ChangePhase(ClaimPhase before) {
+    schedule_.Hasten();
+    switch (claim_.phase()) {
+      case ClaimPhase::kServing:
+        if (before == ClaimPhase::kWaking) return bus_.EndHold(true);
+        BeginTerm();
+        if (before == ClaimPhase::kStandby) TakeOver();
+        return;
+      case ClaimPhase::kStandby:
+        bus_.EndHold(false);
+        spdlog::info("{}: stands by", claim_.why());
+        return;
+      case ClaimPhase::kWaking:
+        spdlog::warn("stood still: listens whether the standby has taken over");
+        return;
+      case ClaimPhase::kClaiming:
+      case ClaimPhase::kYielded:
+        return;
+    }
+  }
+
+  /// Everybody is told anew what holds.
+  void TakeOver() {
+    world_.TakeOver();
+    reports_ = {};
+    publisher_.PublishInherited(world_);
+  }
+
   void BeginTerm() {
+    if (open_journal_) journal_.Use(std::exchange(open_journal_, nullptr)());
     // What an earlier configuration left behind means nothing to a wall clock.
     if (!world_.simulated()) journal_.Clear();
     KeepState(journal_.SetTerm(claim_.term(), world_.epoch()));
-    schedule_.Hasten();
     spdlog::info("serves world \"{}\" in term {}", config_.world(), claim_.term());
   }
 
@@ -229,10 +297,10 @@ class Daemon::Implementation {
     return config_.on_state_failure() != v1::Config::END;
   }
 
-  /// True: the world's time is to begin anew. Only a service that serves is asked.
+  /// True: the world's time is to begin anew. A standby does what the service in force is asked.
   bool ObeyOperators(const std::vector<v1::Input>& inputs) {
     bool restarts = false;
-    if (claim_.phase() != ClaimPhase::kServing) return restarts;
+    if (!claim_.works()) return restarts;
     for (const v1::Input& input : inputs) {
       if (input.has_operator_command()) restarts |= operators_.Obey(input.operator_command());
     }
@@ -275,20 +343,21 @@ class Daemon::Implementation {
 
   /// Publishes the end of what was told in this epoch, and begins the next.
   void CloseEpoch(const char* why) {
-    if (claim_.phase() == ClaimPhase::kServing) {
-      Detect(true);
-      PublishAnswers();
-    }
+    if (claim_.works()) Detect(true);
+    if (claim_.phase() == ClaimPhase::kServing) PublishAnswers();
     Log(spdlog::level::info, "epoch over",
         fmt::format("epoch {} ends at {} s: {}", world_.epoch(),
                     1e-9 * static_cast<double>(world_.now().nanoseconds()), why));
     past_ += detector_.counters();
     detector_ = detection::Detector(OptionsOf(config_));
     advanced_to_.reset();
+    later_.Clear();
     world_.BeginEpoch();
     publisher_.BeginEpoch(world_.epoch());
     schedule_.Hasten();
-    KeepState(journal_.SetTerm(claim_.term(), world_.epoch()));
+    if (claim_.phase() == ClaimPhase::kServing) {
+      KeepState(journal_.SetTerm(claim_.term(), world_.epoch()));
+    }
   }
 
   /// Tells of each simulator that the world's time waits for, or goes on without.
@@ -300,7 +369,7 @@ class Daemon::Implementation {
 
   /// Brings into effect what was told, moves the world's time as far as it may go, and detects.
   void MoveOn(bool inputs) {
-    if (claim_.phase() != ClaimPhase::kServing) return;
+    if (!claim_.works()) return;
     if (!world_.RunsInRounds()) {
       intake_.Enact();
       world_.MoveOn();
@@ -313,7 +382,32 @@ class Daemon::Implementation {
       intake_.Enact();
       world_.MoveTo(*next);
       Detect(true);
+      ApplyKept();
     }
+  }
+
+  /// The time up to which inputs count in this step. A standby, also when it has just taken over,
+  /// may have heard of later rounds than its own.
+  Instant RoundEnd() const {
+    const bool in_rounds = world_.RunsInRounds() && world_.granted() != Instant::Always();
+    return in_rounds && follows_rounds_ ? world_.granted() : Instant::Never();
+  }
+
+  void Apply(const v1::Input& input) {
+    if (!later_.Keep(input, RoundEnd())) return intake_.Apply(input);
+    if (input.has_simulator_clock()) intake_.NoteFollower(input.simulator_clock());
+  }
+
+  void ApplyKept() {
+    if (!follows_rounds_) return;
+    for (const v1::Input& input : later_.Take(RoundEnd())) intake_.Apply(input);
+    intake_.TakeClocks();
+    for (const auto& [id, simulator] : world_.simulators()) {
+      if (!simulator.holds_time() || simulator.time().told_until() >= RoundEnd()) continue;
+      for (const v1::Input& input : later_.TakeToClock(id)) intake_.Apply(input);
+    }
+    intake_.TakeClocks();
+    follows_rounds_ = claim_.phase() == ClaimPhase::kStandby || !later_.empty();
   }
 
   /// The end of the round, if it is over: then everything in it is known.
@@ -332,6 +426,9 @@ class Daemon::Implementation {
       world_.SetClearance(clearance);
     }
     world_.UpdateGrants();
+    if (claim_.phase() == ClaimPhase::kStandby) {
+      return publisher_.NoteEvents(detector_.events(), world_);
+    }
     publisher_.PublishEvents(detector_.events(), world_);
     publisher_.PublishEarliest(detector_.Earliest(), world_.now());
   }
@@ -346,6 +443,7 @@ class Daemon::Implementation {
   }
 
   void PublishStatus() {
+    if (claim_.phase() == ClaimPhase::kWaking) return;
     if (!schedule_.Take(world_)) return;
     detection::DetectorCounters counted = past_;
     counted += detector_.counters();
@@ -382,6 +480,7 @@ class Daemon::Implementation {
   Clock& clock_;
   BatchSink* const recorder_;
   RosterJournal journal_;
+  std::function<Journal*()> open_journal_;
   std::string state_failure_;  ///< Empty: what must be kept is kept.
   ServiceClaim claim_;
   const std::unique_ptr<ShapeBuilder> shape_builder_;
@@ -400,6 +499,9 @@ class Daemon::Implementation {
   SilenceReport silence_report_{config_.clock().on_silent_simulator() == v1::Clock::RELEASE};
   std::optional<ClockStep> clock_step_;  ///< Of this step.
   std::optional<Instant> advanced_to_;
+  LaterRounds later_;
+  bool follows_rounds_ = false;
+  Instant heard_granted_ = Instant::Always();  ///< By another service.
   bool batch_was_full_ = false;
   std::size_t held_inputs_ = 0;  ///< In the full batches up to now.
   std::atomic<bool> stopped_ = false;

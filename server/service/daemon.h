@@ -1,6 +1,7 @@
 // The step of the service: everything that happens between the network and the core.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -22,6 +23,9 @@ struct DaemonParts {
   std::unique_ptr<ShapeBuilder> shape_builder = nullptr;  ///< Null: shapes are built in the step
                                                           ///< after they have arrived.
   Journal* journal = nullptr;                             ///< Keeps term, roster and grants.
+  /// Opens the journal when this service takes over, if another one has it until then; null: it
+  /// cannot be opened, which was logged.
+  std::function<Journal*()> open_journal = nullptr;
   std::string state_failure = {};  ///< Why there is no journal, if one was wanted.
   ClaimOptions claim = {};         ///< By default it serves from the first step.
 };

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <random>
 #include <stdexcept>
 #include <utility>
 
+#include "idl/limits.h"
 #include "server/bus/dds_bus.h"
 #include "server/config/config.h"
 #include "server/config/config_options.h"
@@ -28,9 +30,6 @@
 
 namespace collision::server {
 namespace {
-
-/// A service that is silent for so long counts as gone.
-constexpr std::chrono::nanoseconds kServiceLease = std::chrono::seconds(2);
 
 /// The folder that systemd has made and named in this variable of the environment; empty: it made
 /// none, or several, of which none is ours alone.
@@ -98,6 +97,18 @@ std::unique_ptr<Journal> OpenJournal(const v1::Config& config, std::string* fail
   }
 }
 
+/// When a standby takes over: the other service, which had it, has ended. Null: it cannot be
+/// opened, which is logged.
+Journal* OpenJournalLater(const v1::Config& config, std::unique_ptr<Journal>* journal) {
+  try {
+    *journal = std::make_unique<Journal>(config.state_dir(), config.world(), config.domain(),
+                                         config.simulators_max());
+  } catch (const std::runtime_error& error) {
+    spdlog::error("{}; nothing is kept for the next start", error.what());
+  }
+  return journal->get();
+}
+
 /// An id that no other service has: of two random ones, equal with probability 2^-64.
 std::uint64_t DrawInstance() {
   std::random_device source;
@@ -120,17 +131,22 @@ int Serve(const v1::Config& config, const std::string& record_file) {
   }
   std::unique_ptr<Journal> journal;
   std::string state_failure;
+  std::function<Journal*()> open_journal;
+  const bool stands_by = config.on_occupied() == v1::Config::STAND_BY;
   try {
     journal = OpenJournal(config, &state_failure);
   } catch (const JournalInUse& error) {
-    return Fail(kExitOccupied, error.what());
+    if (!stands_by) return Fail(kExitOccupied, error.what());
+    open_journal = [&] { return OpenJournalLater(config, &journal); };
   } catch (const std::runtime_error& error) {
     return Fail(kExitFile, std::string("state_dir: ") + error.what());
   }
   ClaimOptions claim = {.instance = DrawInstance(),
                         .term_before = journal ? journal->term() : 0,
                         .wait_ns = ToNanoseconds(config.claim_wait_s()),
-                        .heard_for_ns = kServiceLease.count()};
+                        .heard_for_ns = wire::kServiceLease,
+                        .stands_by = stands_by,
+                        .waking_ns = ToNanoseconds(config.lease_s())};
   if (journal) {
     for (const auto& [id, simulator] : journal->simulators()) claim.roster.push_back(simulator);
   }
@@ -144,7 +160,9 @@ int Serve(const v1::Config& config, const std::string& record_file) {
   }
   std::unique_ptr<DdsBus> bus;
   try {
-    bus = std::make_unique<DdsBus>(config.world(), config.domain(), kServiceLease);
+    bus = std::make_unique<DdsBus>(config.world(), config.domain(),
+                                   std::chrono::nanoseconds(ToNanoseconds(config.lease_s())),
+                                   stands_by);
   } catch (const std::runtime_error& error) {
     return Fail(kExitUnavailable, error.what());
   }
@@ -152,6 +170,7 @@ int Serve(const v1::Config& config, const std::string& record_file) {
                {.recorder = recorder.get(),
                 .trees = std::move(cache),
                 .journal = journal.get(),
+                .open_journal = std::move(open_journal),
                 .state_failure = std::move(state_failure),
                 .claim = claim});
 }

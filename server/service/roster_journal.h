@@ -18,6 +18,9 @@ class RosterJournal {
   /// `journal` may be null: nothing is kept. It outlives this.
   RosterJournal(const v1::Config& config, Journal* journal);
 
+  /// Keeps it there from now on.
+  void Use(Journal* journal) { journal_ = journal; }
+
   /// Brings the file up to date. Call it before a grant is published. False: that failed, now or
   /// before, and error() says why.
   bool Keep(const World& world);
@@ -34,7 +37,7 @@ class RosterJournal {
  private:
   bool KeepOne(const Simulator& simulator);
 
-  Journal* const journal_;
+  Journal* journal_;
   const double written_ahead_;  ///< [s]
 };
 

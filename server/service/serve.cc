@@ -78,6 +78,7 @@ void WaitForWallClock(const v1::Config& config, const StopSignalWatcher& signals
 int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   SystemClock clock([&bus] { bus.Wake(); });
   RecordingWriter* const recorder = parts.recorder;
+  const bool has_journal_later = parts.open_journal != nullptr;
   BuildOptions build = BuildOptionsOf(config);
   build.cache = std::move(parts.trees);
   Daemon daemon(
@@ -85,6 +86,7 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
       {.recorder = recorder,
        .shape_builder = std::make_unique<ThreadedShapeBuilder>(build, [&bus] { bus.Wake(); }),
        .journal = parts.journal,
+       .open_journal = std::move(parts.open_journal),
        .state_failure = parts.state_failure,
        .claim = parts.claim});
   const StopSignalWatcher signals([&daemon] { daemon.Stop(); }, kStepPatience,
@@ -92,13 +94,14 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   ServiceNotifier service_manager;
   spdlog::info("collisiond {}, instance {:016x}, claims world \"{}\" on domain {}", kVersion,
                parts.claim.instance, config.world(), config.domain());
-  if (parts.journal == nullptr) spdlog::info("no journal: nothing is kept for the next start");
+  if (parts.journal == nullptr && !has_journal_later)
+    spdlog::info("no journal: nothing is kept for the next start");
   spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and evaluation",
                config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerEvaluation(config));
   WaitForWallClock(config, signals, &service_manager);
   bool ready = false;
   while (daemon.Step()) {
-    if (!ready && daemon.claim().phase() == ClaimPhase::kServing) {
+    if (!ready && daemon.claim().works()) {
       service_manager.Ready();
       ready = true;
     }

@@ -25,7 +25,8 @@ struct ServiceParts {
   RecordingWriter* recorder = nullptr;
   std::shared_ptr<TreeStore> trees = nullptr;
   Journal* journal = nullptr;
-  std::string state_failure = {};  ///< As in DaemonParts.
+  std::function<Journal*()> open_journal = nullptr;  ///< As in DaemonParts.
+  std::string state_failure = {};                    ///< As in DaemonParts.
   ClaimOptions claim = {};
 };
 

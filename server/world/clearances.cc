@@ -32,6 +32,10 @@ void Clearances::Acknowledge(std::uint64_t sequence, std::int64_t now_ns, bool c
   if (!contended || lowerings_.acknowledged() >= lowerings_.published()) return;
   if (now_ns - waiting_since_ns_ < kRepeatAfterNs) return;
   waiting_since_ns_ = now_ns;
+  MarkAllChanged();
+}
+
+void Clearances::MarkAllChanged() {
   for (const auto& [slot, clearance] : clearances_) MarkChanged(slot);
   MarkGrantChanged();
 }

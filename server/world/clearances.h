@@ -34,6 +34,9 @@ class Clearances {
   /// The grant, which stands in chunk 0, is out of date.
   void MarkGrantChanged() { changed_.insert(0); }
 
+  /// All samples are out of date.
+  void MarkAllChanged();
+
   /// Replaces the clearance of the agent in `slot`, and marks its chunk.
   void Set(std::uint32_t slot, const detection::AgentClearance& clearance);
 

@@ -31,7 +31,7 @@ void Silence::Update(const Simulators& simulators, std::int64_t now_ns) {
   Instant greatest_alive = Instant::Always();
   for (const auto& [id, simulator] : simulators) {
     if (!simulator.time().clock()) continue;
-    roster_.Arrive(id, simulator.run());
+    if (simulator.follows()) roster_.Arrive(id, simulator.run());
     if (!simulator.holds_time()) continue;
     const Instant told = simulator.time().told_until();
     least = std::min(least, told);

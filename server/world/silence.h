@@ -51,6 +51,13 @@ class Silence {
   Roster& roster() { return roster_; }
   const Roster& roster() const { return roster_; }
 
+  /// Another service has ended, and this one goes on with those that it served. The waiting for
+  /// them begins now.
+  void AwaitRoster(const std::vector<JournalledSimulator>& roster, std::int64_t now_ns) {
+    roster_ = Roster(roster);
+    begun_ns_ = now_ns;
+  }
+
   /// Takes note of who has moved and who is back. Call it once a step, after the inputs.
   void Update(const Simulators& simulators, std::int64_t now_ns);
 

@@ -78,6 +78,11 @@ class Simulator {
     return {.simulator = id_, .slot = slot, .run = run_, .generation = generation};
   }
 
+  /// Its newest clock follows this service. Not so at first after a take-over: it may have been
+  /// granted more than this service has heard of.
+  bool follows() const { return follows_; }
+  void SetFollows(bool follows) { follows_ = follows; }
+
   SenderClock& sender_clock() { return sender_clock_; }
   const SenderClock& sender_clock() const { return sender_clock_; }
   SimulatorTime& time() { return time_; }
@@ -112,6 +117,7 @@ class Simulator {
   std::optional<std::int64_t> doubted_until_ns_;
   std::int64_t released_since_ns_ = 0;
   std::uint32_t incarnation_ = 0;
+  bool follows_ = true;
   SenderClock sender_clock_;
   SimulatorTime time_;
   AgentTable agents_;

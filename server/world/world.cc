@@ -128,7 +128,8 @@ bool World::RunsInRounds() const {
 
 std::size_t World::SimulatorsToCome() const {
   // Time that a service before this one granted has begun already, with all that were awaited.
-  const bool has_begun = started_ || silence_.roster().greatest_grant() != Instant::Always();
+  const bool has_begun = started_ || silence_.roster().greatest_grant() != Instant::Always() ||
+                         heard_granted_ != Instant::Always();
   if (!simulated_ || has_begun) return 0;
   const auto with_clock = static_cast<std::size_t>(
       std::count_if(simulators_.begin(), simulators_.end(),
@@ -149,9 +150,9 @@ std::optional<Instant> World::NextNow() const {
     first = std::min(first, *time.clock());
     last = std::max(last, *time.clock());
   }
-  if (first.is_never()) return std::nullopt;
+  if (first.is_never() || !silence_.roster().complete()) return std::nullopt;
   if (!started_) {
-    if (SimulatorsToCome() > 0 || !silence_.roster().complete()) return std::nullopt;
+    if (SimulatorsToCome() > 0) return std::nullopt;
     return told >= first ? std::optional(first) : std::nullopt;
   }
   if (!RunsInRounds()) return std::max(now_, first);
@@ -176,6 +177,7 @@ std::vector<std::string> World::ReleaseSilent() {
       simulator.SetAlive(false, monotonic_ns());
     }
   }
+  RaiseInheritedGrant();
   silence_.Update(simulators_, monotonic_ns());
   return silence_.Release(&simulators_, monotonic_ns());
 }
@@ -190,6 +192,45 @@ std::vector<std::string> World::WaitedFor() const {
 
 std::optional<std::int64_t> World::NextRelease() const {
   return silence_.NextDue(simulators_, monotonic_ns());
+}
+
+Instant World::NewestClock() const {
+  Instant newest = Instant::Always();
+  for (const auto& [id, simulator] : simulators_) {
+    newest = std::max(newest, simulator.time().newest());
+  }
+  return newest;
+}
+
+/// A grant is at most `grant_ahead_max_s` ahead of now, and now never ahead of a clock that the
+/// service had: by the time at which all follow this service, it has those clocks, too.
+void World::RaiseInheritedGrant() {
+  if (promised_from_ == Instant::Always() || silence_.roster().complete()) return;
+  const Instant newest = std::max(NewestClock(), heard_granted_);
+  promised_from_ =
+      std::max(promised_from_, numeric::AddRoundedUp(std::max(newest, granted_), grant_ahead_max_));
+  silence_.roster().RaiseGrant(promised_from_);
+}
+
+void World::StandBy(Instant granted) {
+  stands_by_ = true;
+  if (simulated_) heard_granted_ = std::max(heard_granted_, granted);
+}
+
+void World::TakeOver() {
+  stands_by_ = false;
+  for (auto& [id, simulator] : simulators_) simulator.agents().clearances().MarkAllChanged();
+  if (!simulated_ || NewestClock() == Instant::Always()) return;
+  std::vector<JournalledSimulator> roster;
+  for (auto& [id, simulator] : simulators_) {
+    simulator.SetFollows(false);
+    if (!simulator.alive() || !simulator.holds_time()) continue;
+    roster.push_back({.id = id, .run = simulator.run(), .name = simulator.name(), .granted = {}});
+  }
+  silence_.AwaitRoster(roster, monotonic_ns());
+  promised_from_ = granted_;
+  RaiseInheritedGrant();
+  ShareGrant();
 }
 
 void World::EndRun(Simulator* simulator, EndCause cause) {
@@ -220,7 +261,7 @@ void World::BeginEpoch() {
   ++epoch_;
   started_ = false;
   now_ = Instant();
-  granted_ = Instant::Always();
+  granted_ = heard_granted_ = promised_from_ = Instant::Always();
 }
 
 void World::BeginWallEpoch() {
@@ -243,7 +284,11 @@ Instant World::LatestAllowed(const Simulator& simulator) const {
   if (time.first_clock() && (!waits || (*time.first_clock() > Instant() && !time.joined()))) {
     latest = std::max(latest, numeric::AddRoundedDown(*time.first_clock(), grant_ahead_max_));
   }
-  return latest;
+  if (stands_by_) {
+    const Instant told = std::max({time.newest(), heard_granted_, started_ ? now_ : Instant()});
+    latest = std::max(latest, numeric::AddRoundedDown(told, grant_ahead_max_));
+  }
+  return std::max(latest, promised_from_);
 }
 
 StampRules World::RulesForState(const Simulator& simulator, bool admitted) const {

@@ -150,6 +150,20 @@ class World {
   Instant now() const { return now_; }
   std::int64_t monotonic_ns() const { return reading_.monotonic_ns; }
 
+  /// Another service serves this world, and this one stands by: simulators follow the grants of
+  /// that one, of which `granted` is the greatest that was heard (simulated clock; else Always()).
+  void StandBy(Instant granted);
+
+  /// This service serves from now on, in place of the one beside which it stood by. Simulated
+  /// clock: time stands until each simulator that lives and holds time has told a clock that
+  /// follows this service. Until then it may act on a grant of which this service has not heard;
+  /// that is at most `grant_ahead_max_s` beyond the clocks, and promises count from there.
+  void TakeOver();
+
+  /// From when on promises count after a take-over, whatever is said of single agents; else
+  /// Always().
+  Instant promised_from() const { return promised_from_; }
+
   /// What a clock tells of its sender's offset; nullopt: nothing. `service_id`: of this service.
   std::optional<RoundTrip> RoundTripOf(const v1::SimulatorClock& clock,
                                        std::uint64_t service_id) const;
@@ -194,6 +208,8 @@ class World {
   Simulator* Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run);
   Instant LatestAllowed(const Simulator& simulator) const;
   void BeginWallEpoch();
+  Instant NewestClock() const;
+  void RaiseInheritedGrant();
 
   const bool simulated_;
   const double skew_;
@@ -214,6 +230,9 @@ class World {
   WallTime wall_time_;
   Widenings widenings_;
   std::optional<std::int64_t> woke_ns_;
+  bool stands_by_ = false;
+  Instant heard_granted_ = Instant::Always();  ///< By the service beside which it stands by.
+  Instant promised_from_ = Instant::Always();
 };
 
 /// Seconds of a configuration, as nanoseconds.

@@ -9,8 +9,8 @@ namespace {
 
 std::vector<Case> AllCases() {
   std::vector<Case> all;
-  for (const auto& part : {NetworkCases(), ProgramCases(), ClockCases(), HostileCases(),
-                           AgentCases(), MemoryCases()}) {
+  for (const auto& part : {NetworkCases(), ProgramCases(), StandbyCases(), ClockCases(),
+                           HostileCases(), AgentCases(), MemoryCases()}) {
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;

@@ -30,6 +30,8 @@ class MonitorProgram {
   Network::Id id() const { return end_->id(); }
   const std::vector<MonitoredEvent>& heard() const { return heard_; }
   std::uint64_t contacts_missed() const { return monitor_->contacts_missed(); }
+  /// Contacts that it did not hand on, since a service that took over has told them once more.
+  std::uint64_t contacts_repeated() const { return monitor_->contacts_repeated(); }
   /// The numbers of the contacts heard, by service.
   const std::map<std::uint64_t, std::set<std::uint64_t>>& contacts() const { return contacts_; }
   /// Numbers that came again, or after a higher one.

@@ -13,13 +13,20 @@ bool OfSimulators(Topic topic) {
          topic == Topic::kStates || topic == Topic::kCommand;
 }
 
-v1::Input HeardOf(const v1::ServiceStatus& status) {
+/// What one service hears of another one.
+v1::Input HeardOf(const v1::Output& output) {
   v1::Input input;
+  if (output.has_collision_event()) {
+    *input.mutable_event_heard() = output.collision_event();
+    return input;
+  }
+  const v1::ServiceStatus& status = output.service_status();
   v1::ServiceHeard& heard = *input.mutable_service_heard();
   heard.set_service_id(status.stamp().service_id());
   heard.set_term(status.stamp().term());
   heard.set_sequence(status.stamp().sequence());
   heard.set_phase(status.phase());
+  heard.set_granted_until_ns(status.granted_until_ns());
   return input;
 }
 
@@ -110,6 +117,7 @@ void Network::Write(Id id, const v1::Input& message) {
 }
 
 void Network::Write(Id id, const v1::Output& message) {
+  if (message.has_service_status()) programs_[id].service = message.service_status().service_id();
   Write(id,
         {.address = AddressOf(message),
          .input = nullptr,
@@ -136,7 +144,10 @@ void Network::Write(Id id, Sample sample, bool disposes) {
 }
 
 bool Network::Reads(const Program& reader, Topic topic) const {
-  if (reader.role == Role::kService) return OfSimulators(topic) || topic == Topic::kStatus;
+  if (reader.role == Role::kService) {
+    const bool is_event = topic == Topic::kContact || topic == Topic::kForecast;
+    return OfSimulators(topic) || topic == Topic::kStatus || (is_event && reader.reads_events);
+  }
   return !OfSimulators(topic);
 }
 
@@ -229,7 +240,7 @@ void Network::Take(Id id, std::size_t limit, std::vector<v1::Input>* inputs,
       if (sample.input) {
         if (inputs != nullptr) inputs->push_back(*sample.input);
       } else if (program.role == Role::kService) {
-        inputs->push_back(HeardOf(sample.output->service_status()));
+        inputs->push_back(HeardOf(*sample.output));
       } else if (outputs != nullptr) {
         outputs->push_back(*sample.output);
       }
@@ -332,6 +343,12 @@ void Network::SetAlive(Id id, Id other, bool alive) {
       input.set_sender(other);
       input.mutable_liveliness()->set_simulator_id(simulator);
       input.mutable_liveliness()->set_alive(alive);
+      listener.changes.push_back(input);
+    }
+    if (!alive && programs_[other].service != 0) {
+      v1::Input input;
+      input.mutable_service_heard()->set_service_id(programs_[other].service);
+      input.mutable_service_heard()->set_ended(true);
       listener.changes.push_back(input);
     }
   }

@@ -81,6 +81,9 @@ class Network {
   void Write(Id id, const v1::Input& message);
   void Write(Id id, const v1::Output& message);
 
+  /// This service hears also of the events that others publish.
+  void ReadEvents(Id id) { programs_[id].reads_events = true; }
+
   /// What has arrived for a program, at most `limit`; either pointer may be null.
   void Take(Id id, std::size_t limit, std::vector<v1::Input>* inputs,
             std::vector<v1::Output>* outputs);
@@ -138,7 +141,8 @@ class Network {
   struct Program {
     Role role = Role::kMonitor;
     std::uint64_t simulator = 0;
-    bool gone = false;
+    std::uint64_t service = 0;  ///< Its id, once it has told its status.
+    bool gone = false, reads_events = false;
     std::function<void()> arrived;
     std::map<Topic, Writer> writers;
     std::map<Id, Peer> peers;

@@ -36,7 +36,10 @@ void ServiceProgram::Start() {
                                 .term_before = journal_ ? journal_->term() : 0,
                                 .wait_ns = static_cast<std::int64_t>(config_.claim_wait_s() * 1e9),
                                 .heard_for_ns = wire::kServiceLease,
+                                .stands_by = config_.on_occupied() == v1::Config::STAND_BY,
+                                .waking_ns = static_cast<std::int64_t>(config_.lease_s() * 1e9),
                                 .roster = {}};
+  if (claim.stands_by) network_.ReadEvents(bus_->id());
   if (journal_) {
     for (const auto& [id, simulator] : journal_->simulators()) claim.roster.push_back(simulator);
   }

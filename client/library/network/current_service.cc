@@ -56,9 +56,9 @@ OtherServices::Instance OtherServices::InstanceOf(const v1::Output& output) {
 }
 
 void OtherServices::Keep(const v1::Output& output, Time now) {
-  // A rejection answers what was just sent; a claim is nothing that comes into force.
+  // A rejection answers what was just sent; who does not serve is not in force.
   if (output.has_rejection()) return;
-  if (output.has_service_status() && output.service_status().phase() == v1::PHASE_CLAIMING) return;
+  if (output.has_service_status() && output.service_status().phase() != v1::PHASE_SERVING) return;
   const std::uint64_t id = StampOf(output).service_id();
   if (!services_.contains(id) && services_.size() == kServicesMax) {
     services_.erase(std::min_element(

@@ -84,6 +84,9 @@ void MessageMonitor::HandOn(const v1::Output& output) {
       return;
     case v1::Output::kServiceStatus:
       if (output.service_status().phase() == v1::PHASE_CLAIMING) return;
+      if (output.service_status().phase() == v1::PHASE_STANDBY) {
+        return Call(callbacks_.standby, output.service_status());
+      }
       if (!Accept(output.service_status().stamp())) return;
       Await(output.service_status());
       return Call(callbacks_.status, output.service_status());

@@ -27,6 +27,7 @@ class MessageMonitor {
     std::function<void(const v1::CollisionEvent&)> event = {};
     std::function<void(const v1::EarliestIntersection&)> earliest = {};
     std::function<void(const v1::ServiceStatus&)> status = {};
+    std::function<void(const v1::ServiceStatus&)> standby = {};  ///< Of one that stands by.
     std::function<void(const v1::AgentDescription&)> description = {};
     std::function<void(const v1::AgentRemoval&)> removal = {};
     std::function<void(const v1::ShapePart&)> shape_part = {};
@@ -48,6 +49,7 @@ class MessageMonitor {
 
   bool service_alive() const { return receiver_->service_alive(); }
   std::uint64_t contacts_missed() const { return contacts_.missed(); }
+  std::uint64_t contacts_repeated() const { return filter_.contacts_repeated(); }
 
  private:
   /// Contacts up to `sequence` were published by the time `since`.

@@ -17,19 +17,28 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
     // A contact is history: it counts, however late it comes.
     return is_contact && known->service == event.stamp().service_id();
   }
+  const bool repeated = known != nullptr && IsRepeated(event, *known);
+  if (repeated && is_contact) ++contacts_repeated_;
   if (known_.size() >= kPairsMax) {
     earlier_ = std::move(known_);
     known_.clear();
   }
-  known_[pair] = {event.stamp().service_id(), event.contact(), event.revision(), event.status()};
-  return true;
+  known_[pair] = {
+      event.stamp().service_id(),  event.contact(),          event.revision(), event.status(),
+      event.begin().earliest_ns(), event.begin().latest_ns()};
+  return !repeated;
+}
+
+bool RevisionFilter::IsRepeated(const v1::CollisionEvent& event, const Known& known) {
+  if (known.service == event.stamp().service_id()) return false;
+  if (event.contact() != known.contact || event.status() != known.status) return false;
+  if (IsForecast(event.status())) return event.begin().earliest_ns() >= known.begin_earliest_ns;
+  return event.begin().earliest_ns() <= known.begin_latest_ns &&
+         known.begin_earliest_ns <= event.begin().latest_ns();
 }
 
 bool RevisionFilter::IsOutdated(const v1::CollisionEvent& event, const Known& known) {
-  if (known.service != event.stamp().service_id()) {
-    return event.contact() == known.contact && event.revision() == known.revision &&
-           event.status() == known.status;
-  }
+  if (known.service != event.stamp().service_id()) return false;
   return std::pair(event.contact(), event.revision()) <= std::pair(known.contact, known.revision);
 }
 

@@ -16,8 +16,9 @@ namespace collision::client {
 bool IsForecast(v1::EventStatus status);
 
 /// Makes one stream of the two topics: each revision once, no forecast after a later revision of
-/// its pair, every contact. A service counts revisions from 1 for each contact; another service
-/// counts anew.
+/// its pair, every contact. A service counts revisions from 1 for each contact. One that takes over
+/// goes on with the contacts of the one before it and tells once more what stands: of the same
+/// contact the same status and begin, a forecast that does not begin earlier.
 class RevisionFilter {
  public:
   /// Pairs that are remembered; beyond twice as many those heard of longest ago are forgotten, and
@@ -29,6 +30,9 @@ class RevisionFilter {
   /// which the contact itself says; or the repetition by another service of what is known.
   bool IsNew(const v1::CollisionEvent& event, ContactSequence* contacts);
 
+  /// Contacts that a service which took over has told once more.
+  std::uint64_t contacts_repeated() const { return contacts_repeated_; }
+
  private:
   using Agent = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>;
   using Pair = std::pair<Agent, Agent>;
@@ -39,12 +43,15 @@ class RevisionFilter {
     std::uint32_t contact = 0;
     std::uint32_t revision = 0;
     v1::EventStatus status{};
+    std::int64_t begin_earliest_ns = 0, begin_latest_ns = 0;
   };
 
   static Agent Id(const v1::AgentId& id);
   static bool IsOutdated(const v1::CollisionEvent& event, const Known& known);
+  static bool IsRepeated(const v1::CollisionEvent& event, const Known& known);
   Known* Find(const Pair& pair);
 
+  std::uint64_t contacts_repeated_ = 0;
   std::map<Pair, Known> known_, earlier_;  ///< When the first is full it takes the other's place.
 };
 

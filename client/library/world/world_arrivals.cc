@@ -99,7 +99,7 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
       }
       break;
     case v1::Output::kServiceStatus:
-      if (output.service_status().phase() == v1::PHASE_CLAIMING) break;
+      if (output.service_status().phase() != v1::PHASE_SERVING) break;
       if (!Accept(output.service_status().stamp(), output.service_status().now_ns(), now)) break;
       simulated_clock_ = output.service_status().simulated_clock();
       waiting_.Take(output.service_status());
@@ -148,6 +148,7 @@ bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t n
     gate_.Clear();
     forecasts_.Clear();
     clearances_sequence_ = 0;
+    service_is_new_ = id != 0;
     agents_.BeginService();
     service_now_ns_ = now_ns;
     for (const v1::Output& output : others_.Take(service_.id(), now)) Handle(output, now);

@@ -275,9 +275,6 @@ void World::Implementation::WriteClock() { WriteClock(clock_ns_); }
 
 void World::Implementation::WriteClock(std::int64_t clock_ns) {
   last_clock_ = agents_.Clock(clock_ns, next_ns_, lock_step_);
-  last_clock_.set_service_id(service_.id());
-  last_clock_.set_service_term(service_.term());
-  last_clock_.set_clearances_sequence(clearances_sequence_);
   if (!lock_step_) echo_.FillIn(wall_clock_(), &last_clock_);
   clock_due_ = false;
   RepeatClock();
@@ -285,6 +282,10 @@ void World::Implementation::WriteClock(std::int64_t clock_ns) {
 }
 
 void World::Implementation::RepeatClock() {
+  last_clock_.set_service_id(service_.id());
+  last_clock_.set_service_term(service_.term());
+  last_clock_.set_clearances_sequence(clearances_sequence_);
+  service_is_new_ = false;
   v1::Input message;
   *message.mutable_simulator_clock() = last_clock_;
   transport_->Write(message);
@@ -304,11 +305,11 @@ void World::Implementation::Tend() {
   }
   // A clock that has been reached is told with what comes next; until then the last one stands.
   if (clock_due_) {
-    if (last_clock_.simulator_id() != 0 && IsQuiet()) RepeatClock();
+    if (last_clock_.simulator_id() != 0 && (IsQuiet() || service_is_new_)) RepeatClock();
   } else if (again) {
     Reach(clock_ns_);
     WriteClock();
-  } else if (IsQuiet() || agents_.clock_released()) {
+  } else if (IsQuiet() || service_is_new_ || agents_.clock_released()) {
     WriteClock();
   }
 }

@@ -184,6 +184,7 @@ class World::Implementation {
 
   std::int64_t service_now_ns_ = kBeforeAll;  ///< Newest heard.
   std::uint64_t clearances_sequence_ = 0;  ///< Of the newest clearance taken in, of this service.
+  bool service_is_new_ = false;  ///< It has taken over, and no clock has been written since.
   bool service_lost_ = false;
   std::optional<bool> lost_news_;  ///< It was lost (true) or is back, and that was not told yet.
   std::deque<std::pair<AgentId, Clearance>> lowered_;  ///< Not told yet.

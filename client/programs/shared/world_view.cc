@@ -44,9 +44,14 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
   MessageMonitor::Callbacks callbacks;
   callbacks.status = [this](const v1::ServiceStatus& status) {
     status_ = status;
+    standbys_.erase(status.service_id());
     for (const v1::SimulatorStatus& simulator : status.simulators()) {
       KeepSimulatorName(simulator.simulator_id(), simulator.name());
     }
+  };
+  callbacks.standby = [this](const v1::ServiceStatus& status) {
+    if (standbys_.size() >= kStandbysMax && !standbys_.contains(status.service_id())) return;
+    standbys_[status.service_id()] = {status, std::chrono::steady_clock::now()};
   };
   // A report outlives its simulator: it names what has left before this monitor came.
   callbacks.report = [this](const v1::SimulatorReport& report) {
@@ -68,6 +73,15 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
   callbacks.states = [this](const v1::AgentStates& message) { Handle(message); };
   callbacks.clearance = [this](const v1::Clearance& message) { Handle(message); };
   return callbacks;
+}
+
+std::vector<v1::ServiceStatus> WorldView::Standbys() const {
+  std::vector<v1::ServiceStatus> standbys;
+  const auto now = std::chrono::steady_clock::now();
+  for (const auto& [id, standby] : standbys_) {
+    if (now - standby.heard <= kStandbySilence) standbys.push_back(standby.status);
+  }
+  return standbys;
 }
 
 std::vector<AgentView> WorldView::Agents() const {

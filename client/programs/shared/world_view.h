@@ -1,6 +1,7 @@
 // The state of a world as a monitor has received it.
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <optional>
 #include <set>
@@ -65,6 +66,10 @@ class WorldView {
   /// Maximum number of names of simulators; beyond it no further one is kept.
   static constexpr std::size_t kSimulatorNamesMax = 65536;
 
+  /// The longest period of a status, and a little.
+  static constexpr std::chrono::seconds kStandbySilence{11};
+  static constexpr std::size_t kStandbysMax = 16;  ///< Beyond it no further one is kept.
+
   WorldView() = default;
   WorldView(const WorldView&) = delete;
   WorldView& operator=(const WorldView&) = delete;
@@ -73,6 +78,9 @@ class WorldView {
 
   const std::optional<v1::ServiceStatus>& status() const { return status_; }
   const std::optional<v1::EarliestIntersection>& earliest() const { return earliest_; }
+
+  /// The newest status of each service that stands by and was heard within kStandbySilence.
+  std::vector<v1::ServiceStatus> Standbys() const;
 
   /// All described agents, and those that the service holds without a living writer, by simulator
   /// and slot.
@@ -119,7 +127,13 @@ class WorldView {
   AgentView HeldOnly(std::uint64_t simulator, std::uint32_t run,
                      const v1::AgentClearance& clearance) const;
 
+  struct Standby {
+    v1::ServiceStatus status;
+    std::chrono::steady_clock::time_point heard;
+  };
+
   std::optional<v1::ServiceStatus> status_;
+  std::map<std::uint64_t, Standby> standbys_;  ///< By service.
   std::optional<v1::EarliestIntersection> earliest_;
   std::map<Key, v1::AgentDescription> descriptions_;
   std::map<AgentId, std::string> names_;                            ///< Also of agents that left.

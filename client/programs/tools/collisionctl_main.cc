@@ -112,7 +112,7 @@ void Follow(MessageMonitor* monitor, WorldView* view, bool json) {
 void Print(const std::string& command, const Options& options, WorldView* view) {
   if (command == "events") return PrintEvents(view->TakeNewestRevisions(), *view, options.json);
   if (command == "status") {
-    std::cout << (options.json ? Json(*view->status()) + "\n" : StatusPage(*view));
+    std::cout << (options.json ? StatusJson(*view) : StatusPage(*view));
   } else if (command == "agents") {
     std::cout << (options.json ? AgentsJson(*view) + "\n" : AgentsPage(*view));
   } else if (command == "shapes") {

@@ -1,6 +1,7 @@
 // The simulators that a service before this one served, as far as they have not come back.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -39,6 +40,9 @@ class Roster {
 
   /// The greatest time granted to any of them; Always() if there was none.
   Instant greatest_grant() const { return greatest_grant_; }
+
+  /// So much may have been granted.
+  void RaiseGrant(Instant granted) { greatest_grant_ = std::max(greatest_grant_, granted); }
 
   /// That time is over: the grants of before mean nothing any more.
   void Forget();

@@ -13,6 +13,7 @@ using suite::Setting;
 
 std::vector<Case> NetworkCases();
 std::vector<Case> ProgramCases();
+std::vector<Case> StandbyCases();
 std::vector<Case> ClockCases();
 std::vector<Case> HostileCases();
 std::vector<Case> AgentCases();

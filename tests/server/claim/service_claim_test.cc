@@ -47,7 +47,8 @@ TEST(ServiceClaim, AloneItServesAfterTheWaitInTheTermAfterTheJournals) {
 TEST(ServiceClaim, BesideALiveServiceItEndsAndNamesIt) {
   ServiceClaim claim(Options(5));
   claim.Update(0);
-  claim.Hear({.instance = 0xab, .term = 3, .serving = true, .sequence = 9}, kSecond / 2);
+  claim.Hear({.instance = 0xab, .term = 3, .phase = OtherPhase::kServing, .sequence = 9},
+             kSecond / 2);
   claim.Update(kSecond / 2);
   EXPECT_EQ(claim.phase(), ClaimPhase::kYielded);
   EXPECT_EQ(claim.why(), "service 00000000000000ab, term 3 serves this world");
@@ -66,7 +67,7 @@ TEST(ServiceClaim, OfTwoThatStartTogetherTheLowerInstanceGoesOn) {
 TEST(ServiceClaim, ItsOwnStatusIsNoOtherService) {
   ServiceClaim claim(Options(5));
   claim.Update(0);
-  claim.Hear({.instance = 5, .term = 9, .serving = true, .sequence = 1}, 1);
+  claim.Hear({.instance = 5, .term = 9, .phase = OtherPhase::kServing, .sequence = 1}, 1);
   claim.Update(kSecond);
   EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
   EXPECT_EQ(claim.term(), 1u);
@@ -74,7 +75,7 @@ TEST(ServiceClaim, ItsOwnStatusIsNoOtherService) {
 
 TEST(ServiceClaim, ATermHeardOfOneThatHasDiedCounts) {
   ServiceClaim claim({.instance = 5, .wait_ns = 5 * kSecond, .heard_for_ns = kSecond});
-  claim.Hear({.instance = 1, .term = 41, .serving = true, .sequence = 1}, 0);
+  claim.Hear({.instance = 1, .term = 41, .phase = OtherPhase::kServing, .sequence = 1}, 0);
   claim.Update(2 * kSecond);
   claim.Update(7 * kSecond);
   EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
@@ -92,8 +93,9 @@ TEST(ServiceClaim, ATermThatSimulatorsFollowCountsUnlessItIsTheGreatest) {
   EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
   EXPECT_EQ(claim.term(), former.term() + 1);
   for (const std::uint64_t sequence : {1u, 2u}) {
-    former.Hear({.instance = 5, .term = claim.term(), .serving = true, .sequence = sequence},
-                2 * kSecond);
+    former.Hear(
+        {.instance = 5, .term = claim.term(), .phase = OtherPhase::kServing, .sequence = sequence},
+        2 * kSecond);
   }
   former.Update(2 * kSecond);
   EXPECT_EQ(former.phase(), ClaimPhase::kYielded);
@@ -102,9 +104,9 @@ TEST(ServiceClaim, ATermThatSimulatorsFollowCountsUnlessItIsTheGreatest) {
 TEST(ServiceClaim, TheWorldIsContendedForAWhileAfterAnotherServiceWasHeard) {
   ServiceClaim claim = Serving(1);
   EXPECT_FALSE(claim.IsContended(kSecond));
-  claim.Hear({.instance = 5, .term = 1, .serving = false, .sequence = 1}, kSecond);
+  claim.Hear({.instance = 5, .term = 1, .phase = OtherPhase::kClaiming, .sequence = 1}, kSecond);
   EXPECT_FALSE(claim.IsContended(kSecond)) << "it publishes nothing but its claim";
-  claim.Hear({.instance = 5, .term = 1, .serving = true, .sequence = 2}, kSecond);
+  claim.Hear({.instance = 5, .term = 1, .phase = OtherPhase::kServing, .sequence = 2}, kSecond);
   EXPECT_TRUE(claim.IsContended(kSecond + kContendedForNs));
   EXPECT_FALSE(claim.IsContended(kSecond + kContendedForNs + 1));
 }
@@ -116,12 +118,15 @@ TEST(ServiceClaim, TheGreatestTermIsNotExceeded) {
 
 TEST(ServiceClaim, WhoServesYieldsToAHigherTermOnlyWhenItIsHeardTwice) {
   ServiceClaim claim = Serving(5);
-  claim.Hear({.instance = 6, .term = kTermMax, .serving = true, .sequence = 1}, 2 * kSecond);
-  claim.Hear({.instance = 6, .term = kTermMax, .serving = true, .sequence = 1}, 2 * kSecond);
+  claim.Hear({.instance = 6, .term = kTermMax, .phase = OtherPhase::kServing, .sequence = 1},
+             2 * kSecond);
+  claim.Hear({.instance = 6, .term = kTermMax, .phase = OtherPhase::kServing, .sequence = 1},
+             2 * kSecond);
   claim.Update(2 * kSecond);
   EXPECT_EQ(claim.phase(), ClaimPhase::kServing) << "one sample, although it came twice";
   EXPECT_EQ(claim.Conflicts(2 * kSecond).size(), 1u);
-  claim.Hear({.instance = 6, .term = kTermMax, .serving = true, .sequence = 2}, 3 * kSecond);
+  claim.Hear({.instance = 6, .term = kTermMax, .phase = OtherPhase::kServing, .sequence = 2},
+             3 * kSecond);
   claim.Update(3 * kSecond);
   EXPECT_EQ(claim.phase(), ClaimPhase::kYielded);
 }
@@ -129,8 +134,10 @@ TEST(ServiceClaim, WhoServesYieldsToAHigherTermOnlyWhenItIsHeardTwice) {
 TEST(ServiceClaim, WhoServesStaysBesideALowerTermAndANewcomer) {
   ServiceClaim claim = Serving(5, 3);
   for (std::uint64_t sequence : {1, 2, 3}) {
-    claim.Hear({.instance = 1, .term = 3, .serving = true, .sequence = sequence}, 2 * kSecond);
-    claim.Hear({.instance = 2, .term = 0, .serving = false, .sequence = sequence}, 2 * kSecond);
+    claim.Hear({.instance = 1, .term = 3, .phase = OtherPhase::kServing, .sequence = sequence},
+               2 * kSecond);
+    claim.Hear({.instance = 2, .term = 0, .phase = OtherPhase::kClaiming, .sequence = sequence},
+               2 * kSecond);
   }
   claim.Update(2 * kSecond);
   EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
@@ -143,11 +150,14 @@ TEST(ServiceClaim, WhoServesStaysBesideALowerTermAndANewcomer) {
 TEST(ServiceClaim, EverNewInstancesFillNothing) {
   ServiceClaim claim = Serving(5, 100);
   for (std::uint64_t instance = 1000; instance < 11'000; ++instance) {
-    claim.Hear({.instance = instance, .term = 1, .serving = true, .sequence = 1}, 2 * kSecond);
+    claim.Hear({.instance = instance, .term = 1, .phase = OtherPhase::kServing, .sequence = 1},
+               2 * kSecond);
   }
   EXPECT_EQ(claim.Conflicts(2 * kSecond).size(), kOthersMax);
-  claim.Hear({.instance = 1, .term = 200, .serving = true, .sequence = 1}, 5 * kSecond);
-  claim.Hear({.instance = 1, .term = 200, .serving = true, .sequence = 2}, 5 * kSecond);
+  claim.Hear({.instance = 1, .term = 200, .phase = OtherPhase::kServing, .sequence = 1},
+             5 * kSecond);
+  claim.Hear({.instance = 1, .term = 200, .phase = OtherPhase::kServing, .sequence = 2},
+             5 * kSecond);
   claim.Update(5 * kSecond);
   EXPECT_EQ(claim.phase(), ClaimPhase::kYielded) << "the flood is forgotten after its lease";
 }
@@ -182,7 +192,8 @@ class Room {
         if (random_() % 5 == 0) continue;  // lost
         hearer.Hear({.instance = speaker.instance(),
                      .term = speaker.term(),
-                     .serving = speaker.phase() == ClaimPhase::kServing,
+                     .phase = speaker.phase() == ClaimPhase::kServing ? OtherPhase::kServing
+                                                                      : OtherPhase::kClaiming,
                      .sequence = sequence_},
                     now_ns_);
       }

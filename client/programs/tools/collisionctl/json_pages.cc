@@ -39,6 +39,12 @@ std::string Json(const google::protobuf::Message& message) {
   return status.ok() ? text : "{}";
 }
 
+std::string StatusJson(const WorldView& view) {
+  std::string lines = Json(*view.status()) + "\n";
+  for (const v1::ServiceStatus& standby : view.Standbys()) lines += Json(standby) + "\n";
+  return lines;
+}
+
 std::string MissedJson(std::uint64_t more, std::uint64_t so_far) {
   return "{\"contacts_missed\":\"" + std::to_string(more) + "\",\"contacts_missed_so_far\":\"" +
          std::to_string(so_far) + "\"}";

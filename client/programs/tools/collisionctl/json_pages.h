@@ -12,6 +12,9 @@ namespace collision::client {
 /// Any message of idl/messages.proto, with every field printed.
 std::string Json(const google::protobuf::Message& message);
 
+/// The status of the service in force, and behind it one of each that stands by: a line each.
+std::string StatusJson(const WorldView& view);
+
 /// Among the events, where contacts were lost: {"contacts_missed": "how many since the last time",
 /// "contacts_missed_so_far": "in all"}
 std::string MissedJson(std::uint64_t more, std::uint64_t so_far);

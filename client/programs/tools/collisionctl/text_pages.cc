@@ -228,6 +228,17 @@ std::string NumberText(double value, const char* format) {
   return text;
 }
 
+std::string StandbyLines(const WorldView& view) {
+  std::string lines;
+  for (const v1::ServiceStatus& standby : view.Standbys()) {
+    lines += Line("standby", "collisiond " + standby.version() + ", id " +
+                                 std::to_string(standby.service_id()) + ", " +
+                                 std::to_string(standby.agents()) + " agents, now " +
+                                 SinceText(standby.now_ns()));
+  }
+  return lines;
+}
+
 std::string StatusPage(const WorldView& view) {
   const v1::ServiceStatus& status = *view.status();
   std::string page =
@@ -235,7 +246,7 @@ std::string StatusPage(const WorldView& view) {
       Line("service", "collisiond " + status.version() + ", id " +
                           std::to_string(status.service_id()) + ", term " +
                           std::to_string(status.stamp().term())) +
-      Line("world", status.world()) +
+      StandbyLines(view) + Line("world", status.world()) +
       Line("clock", status.simulated_clock() ? "simulated" : "wall") +
       Line("now", SinceText(status.now_ns())) +
       Line("agents", std::to_string(status.agents()) + ", " +
