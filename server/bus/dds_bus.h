@@ -20,10 +20,12 @@ class DdsBus final : public Bus {
   /// simulator sets its own (SimulatorLiveliness). Throws std::runtime_error, with the cause, if
   /// the world's name or the domain is out of range, or DDS is not available.
   DdsBus(const std::string& world, std::uint32_t domain,
-         std::chrono::nanoseconds lease = std::chrono::seconds(2));
+         std::chrono::nanoseconds lease = std::chrono::seconds(2),
+         const dds::SenderLimits& sender_limits = {});
 
   /// `limit` counts samples: a sample that also ends its instance adds a removal as a second
-  /// message, and changes of liveliness come on top.
+  /// message, and changes of liveliness come on top. At most 16 MiB of samples or one more, so that
+  /// no batch is too large for a recording. Equal shares of all senders that wait.
   bool Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                std::vector<v1::Input>* inputs) override;
 
@@ -32,6 +34,9 @@ class DdsBus final : public Bus {
 
   void Flush() override;
   void Wake() override;
+
+  /// The programs that are ignored from now on.
+  std::vector<std::string> TakeWarnings() override;
 
   /// counters(), each with "dds_" before its name.
   std::vector<v1::Counter> network_counters() const override;
