@@ -99,6 +99,12 @@ std::unique_ptr<Journal> OpenJournal(const v1::Config& config, std::string* fail
 }
 
 /// An id that no other service has: of two random ones, equal with probability 2^-64.
+dds::SenderLimits SenderLimitsOf(const v1::Config& config) {
+  return {.samples_per_second = config.sender_messages_per_second_max(),
+          .bytes_per_second = config.sender_bytes_per_second_max(),
+          .waiting_bytes_max = config.waiting_mb_max() * std::size_t{1'000'000}};
+}
+
 std::uint64_t DrawInstance() {
   std::random_device source;
   const std::uint64_t high = source();
@@ -144,7 +150,8 @@ int Serve(const v1::Config& config, const std::string& record_file) {
   }
   std::unique_ptr<DdsBus> bus;
   try {
-    bus = std::make_unique<DdsBus>(config.world(), config.domain(), kServiceLease);
+    bus = std::make_unique<DdsBus>(config.world(), config.domain(), kServiceLease,
+                                   SenderLimitsOf(config));
   } catch (const std::runtime_error& error) {
     return Fail(kExitUnavailable, error.what());
   }
