@@ -63,8 +63,10 @@ void MeasureAnswers(double seconds, const std::string& name, std::uint32_t domai
   constexpr std::int64_t kStep = 16'666'667;
   client::World world =
       client::World::Connect({.world = name, .simulator = "honest", .domain = domain});
-  client::Agent one = world.AddAgent({.name = "one", .radius_m = 1, .acceleration_max_m_s2 = 1}, {});
-  client::Agent two = world.AddAgent({.name = "two", .radius_m = 1, .acceleration_max_m_s2 = 1}, {});
+  client::Agent one =
+      world.AddAgent({.name = "one", .radius_m = 1, .acceleration_max_m_s2 = 1}, {});
+  client::Agent two =
+      world.AddAgent({.name = "two", .radius_m = 1, .acceleration_max_m_s2 = 1}, {});
   std::vector<double> waits_ms;
   const auto begin = steady_clock::now();
   const auto end = begin + std::chrono::duration_cast<steady_clock::duration>(
