@@ -109,11 +109,12 @@ const void* SampleBuffers::Decode(const ArrivedSample& arrived) {
   return ddsi_serdata_to_sample(arrived.data.get(), sample, nullptr, nullptr) ? sample : nullptr;
 }
 
+void Intake::AddWriters(const std::vector<NewWriter>& writers) {
+  for (const auto& [topic, sender, writer] : writers) senders_.Add(readers_[topic], writer, sender);
+}
+
 std::size_t Intake::TakeInbox(Inbox* inbox, std::size_t limit, std::vector<v1::Input>* inputs) {
   const std::vector<ArrivedSample> arrived = inbox->Take(limit, kInboxBytesAtOnce);
-  for (const NewWriter& writer : inbox->TakeNewWriters()) {
-    senders_.Add(readers_[writer.topic], writer.writer, writer.sender);
-  }
   for (const ArrivedSample& sample : arrived) Receive(sample, inputs);
   return arrived.size();
 }
@@ -140,7 +141,7 @@ std::size_t Intake::Take(dds_entity_t reader, const TopicRow& row, std::size_t l
 void Intake::Receive(const ArrivedSample& arrived, std::vector<v1::Input>* inputs) {
   const void* sample = buffers_.Decode(arrived);
   if (sample == nullptr) return;
-  // For as long as any of its samples waits, it may have been forgotten.
+  // It may have been forgotten while the sample waited, or have written only now.
   senders_.Add(readers_[arrived.topic], arrived.writer, arrived.sender);
   if (arrived.has_data() && !IsRemoval(arrived, sample)) {
     ReceiveData(TopicOf(arrived), sample, arrived.sender, inputs);

@@ -37,6 +37,10 @@ class Intake {
   /// `own` names the one simulator whose clearances and rejections are wanted; 0: those of all.
   Intake(std::uint64_t own, const Endpoints& endpoints) : own_(own), readers_(endpoints.readers) {}
 
+  /// Before TakeInbox() takes what they wrote, and after changes were taken that Follow() is to
+  /// report: what a writer wrote has arrived before its end is known.
+  void AddWriters(const std::vector<NewWriter>& writers);
+
   /// Takes at most `limit` samples that simulators wrote, and appends their messages. Returns how
   /// many it took.
   std::size_t TakeInbox(Inbox* inbox, std::size_t limit, std::vector<v1::Input>* inputs);

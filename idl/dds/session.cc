@@ -140,8 +140,10 @@ class DdsSession::Implementation {
       if (reader != 0 && row.source != dds::Source::kSimulators)
         taken += intake_.Take(reader, row, most, inputs, outputs);
     }
+    const std::vector<dds::WriterChange> changes = watch_.Take();
+    intake_.AddWriters(inbox_.TakeNewWriters());
     if (inputs != nullptr) taken += intake_.TakeInbox(&inbox_, limit - taken, inputs);
-    intake_.Follow(watch_.Take(), inputs);
+    intake_.Follow(changes, inputs);
     return taken;
   }
 

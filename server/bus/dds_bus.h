@@ -12,9 +12,10 @@
 namespace collision::server {
 
 /// The service's end of one world. Whatever a program writes, and however many keys it makes up,
-/// the others are heard, and memory is bounded (dds::SenderLimits). Topics and order: idl/README.md; QoS and what
-/// the network promises: idl/PROTOCOL.md. The only code of the server that knows DDS, by way of
-/// idl/dds.
+/// the others are heard, and memory is bounded (dds::SenderLimits).
+///
+/// Topics and order: idl/README.md; QoS and what the network promises: idl/PROTOCOL.md. The only
+/// code of the server that knows DDS, by way of idl/dds.
 class DdsBus final : public Bus {
  public:
   /// `lease`: how long this service may be silent before its clients count it as gone; each

@@ -86,6 +86,8 @@ TEST(SenderQueues, WhatExceedsTheRateWaitsAndComesInTime) {
   queues.Put(Of(2, 0), -1, 0);
   EXPECT_EQ(Taken(&queues).size(), 501u);  // half a second at once, and the other sender
   EXPECT_TRUE(Taken(&queues).empty());
+  // Only the first one that waits is worth waking anybody.
+  EXPECT_EQ(queues.Put(Of(1, 5000), 0, 0), Outcome::kOverRate);
   const auto wait = queues.UntilReady(0);
   ASSERT_TRUE(wait.has_value());
   EXPECT_GT(*wait, 0);
@@ -98,7 +100,7 @@ TEST(SenderQueues, WhatExceedsTheRateWaitsAndComesInTime) {
   for (std::int64_t now = kSecond; now <= 2 * kSecond; now += kSecond / 10) {
     more += Taken(&queues, kNoLimit, now).size();
   }
-  EXPECT_EQ(more + 502, 2001u);
+  EXPECT_NEAR(static_cast<double>(more), 1500, 2);
   EXPECT_FALSE(queues.UntilReady(3 * kSecond).has_value());
 }
 

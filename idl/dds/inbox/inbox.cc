@@ -124,12 +124,12 @@ void Inbox::Put(const History& history, const ddsi_writer_info& writer, ddsi_ser
     using enum SenderQueues<ArrivedSample>::Outcome;
     const std::int64_t now_ns = Now();
     const auto outcome = queues_.Put(facts, std::move(sample), now_ns);
-    if (outcome != kWaits) ++refused_;
+    if (outcome != kWaits && outcome != kOverRate) ++refused_;
     if (outcome == kIgnoredFromNow) {
       ignored_.push_back({known, queues_.IgnoredFor(facts.sender, now_ns)});
     }
     waiting_most_ = std::max(waiting_most_, queues_.waiting_bytes());
-    if (outcome == kRefused || outcome == kIgnored) return;
+    if (outcome != kWaits && outcome != kIgnoredFromNow) return;
   }
   if (!triggered_.exchange(true)) dds_set_guardcondition(guard_, true);
 }

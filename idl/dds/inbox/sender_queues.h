@@ -46,6 +46,7 @@ class SenderQueues {
 
   enum class Outcome {
     kWaits,
+    kOverRate,  ///< Waits likewise, behind others of the sender, until the rate allows it.
     kRefused,
     kIgnored,  ///< The sender is ignored; its samples that waited are gone.
     kIgnoredFromNow,
@@ -58,7 +59,8 @@ class SenderQueues {
     MakeRoom(facts, &queue);
     if (!HasRoom(queue, cost)) return Refuse(&queue, now_ns);
     Append(facts.key, {facts.key, facts.bytes, std::move(item), {}}, &queue);
-    return Outcome::kWaits;
+    Refill(&queue, now_ns);
+    return Ready(queue) || queue.order.size() == 1 ? Outcome::kWaits : Outcome::kOverRate;
   }
 
   /// Appends at most `samples` items, as many as have `bytes` together, the last one rounded up.
@@ -80,7 +82,8 @@ class SenderQueues {
     std::erase_if(queues_, [&](const auto& entry) { return IsForgotten(entry.second, now_ns); });
   }
 
-  /// How long until something can be taken [ns]; nullopt: nothing waits.
+  /// How long until something should be taken [ns]; nullopt: nothing waits. Of what exceeds a rate
+  /// some gathers first.
   std::optional<std::int64_t> UntilReady(std::int64_t now_ns) {
     std::optional<std::int64_t> least;
     for (auto& [sender, queue] : queues_) {
@@ -89,7 +92,8 @@ class SenderQueues {
       const double seconds =
           std::max({-queue.samples_left / static_cast<double>(limits_.samples_per_second),
                     -queue.bytes_left / static_cast<double>(limits_.bytes_per_second), 0.0});
-      const auto wait = Ready(queue) ? 0 : static_cast<std::int64_t>(1e9 * seconds) + 1;
+      const auto wait =
+          Ready(queue) ? 0 : std::max(static_cast<std::int64_t>(1e9 * seconds), kGathers);
       least = least ? std::min(*least, wait) : wait;
     }
     return least;
@@ -137,6 +141,8 @@ class SenderQueues {
     std::size_t samples, bytes;
     bool left() const { return samples > 0 && bytes > 0; }
   };
+
+  static constexpr std::int64_t kGathers = 1'000'000;  // ns
 
   /// What a sender is handed out before it is the turn of the next.
   static constexpr std::size_t kTurnBytes = 65536;
