@@ -36,7 +36,7 @@ struct DdsSessionOptions {
   std::chrono::nanoseconds lease{2'000'000'000};
 
   /// Of what simulators write, for those that read it.
-  dds::SenderLimits sender_limits;
+  dds::SenderLimits sender_limits = {};
 };
 
 /// A program that the session ignores because it writes far more than it may (SenderLimits).

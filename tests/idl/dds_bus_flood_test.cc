@@ -3,7 +3,10 @@
 // Method: real DDS on loopback, with limits small enough to reach.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "idl/identity.h"
+#include "idl/limits.h"
 #include "tests/idl/dds_bus_support.h"
 
 namespace collision::server {
@@ -70,6 +73,59 @@ TEST(DdsBusFlood, OneThatGoesOnIsIgnoredAndNamed) {
   EXPECT_EQ(bus.counters().senders_ignored, 1u);
   EXPECT_GT(bus.counters().samples_refused, dds::kRefusedMax);
   EXPECT_TRUE(bus.TakeWarnings().empty());
+}
+
+/// As large as a message can become: negative integers take the most bytes.
+v1::AgentStates LargestStates(std::uint32_t chunk) {
+  v1::AgentStates message;
+  message.set_simulator_id(SimulatorId("a"));
+  message.set_chunk(chunk);
+  for (int i = 0; i < wire::kStatesPerSampleMax; ++i) {
+    v1::AgentState& state = *message.add_states();
+    state.set_slot(~0u);
+    state.set_generation(~0u);
+    state.set_sequence(~std::uint64_t{0});
+    for (v1::Vector3* vector :
+         {state.mutable_position_m(), state.mutable_velocity_m_s(),
+          state.mutable_angular_velocity_rad_s(), state.mutable_thrust_direction()}) {
+      vector->set_x(1);
+      vector->set_y(1);
+      vector->set_z(1);
+    }
+    state.mutable_orientation()->set_w(1);
+    state.mutable_orientation()->set_x(1);
+    state.mutable_orientation()->set_y(1);
+    state.mutable_orientation()->set_z(1);
+    state.set_stamp_ns(-1);
+    state.set_direction_until_ns(-1);
+    state.set_expiry_ns(-1);
+    state.set_position_error_m(1);
+    state.set_velocity_error_m_s(1);
+    state.set_rotation_error_rad(1);
+    state.set_discontinuity(true);
+  }
+  return message;
+}
+
+TEST(DdsBusFlood, ABatchFitsIntoARecording) {
+  constexpr std::uint32_t kChunks = 1000;
+  constexpr std::size_t kRecordedMax = std::size_t{64} << 20;
+  DdsBus bus(TestWorld(), TestDomain());
+  DdsSession simulator(SimulatorOptions("a"));
+  for (std::uint32_t chunk = 0; chunk < kChunks; ++chunk) simulator.Write(LargestStates(chunk));
+  simulator.Flush();
+  std::size_t taken = 0, largest = 0;
+  const auto end = std::chrono::steady_clock::now() + kDeadline;
+  while (taken < kChunks && std::chrono::steady_clock::now() < end) {
+    std::vector<v1::Input> inputs;
+    bus.Receive(kShort, kNoLimit, &inputs);
+    taken += inputs.size();
+    std::size_t bytes = 0;
+    for (const v1::Input& input : inputs) bytes += input.ByteSizeLong();
+    largest = std::max(largest, bytes);
+  }
+  EXPECT_EQ(taken, kChunks);
+  EXPECT_LT(largest, kRecordedMax / 2);
 }
 
 TEST(DdsBusFlood, WhatAProgramWroteBeforeItWasReadComesInItsOrder) {
