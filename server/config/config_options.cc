@@ -110,7 +110,7 @@ constexpr ConfigOption kOptions[] = {
      "widen."},
     {"inputs_per_batch_max", "messages", "1", "1048576", "", "65536",
      "Messages taken from the network in one step; the rest waits for the next."},
-    {"sender_messages_per_second_max", "messages", "100", "100000000", "", "100000",
+    {"sender_messages_per_second_max", "messages", "100", "100000000", "", "300000",
      "Messages taken from one program per second, half a second's at once. The rest waits; of a "
      "program that is far behind, only the newest message of each kind, agent or chunk."},
     {"sender_bytes_per_second_max", "bytes", "100000", "100000000000", "", "268435456",

@@ -9,7 +9,7 @@ namespace collision::dds {
 /// A sender is a program that writes. What exceeds its rates waits; beyond `waiting_bytes_max` it
 /// is refused, and a sender that goes on is ignored for a while.
 struct SenderLimits {
-  std::uint64_t samples_per_second = 100'000;    ///< Of one sender, > 0.
+  std::uint64_t samples_per_second = 300'000;    ///< Of one sender, > 0.
   std::uint64_t bytes_per_second = 268'435'456;  ///< Likewise.
   /// Of all senders together, the memory beside the samples included. Where that is full, a sender
   /// may still fill an equal share of it, so that in all at most twice as much waits.
