@@ -50,13 +50,15 @@ class Builder {
   Builder(dds_entity_t participant, dds_duration_t lease)
       : participant_(participant), lease_(lease) {}
 
-  void Read(Source source, const std::string& partition, const dds_listener_t* listener) {
+  /// `inbox`: null, the readers keep their samples themselves.
+  void Read(Source source, const std::string& partition, const dds_listener_t* listener,
+            Inbox* inbox) {
     Qos qos = MakeQos();
     dds_qset_partition1(qos.get(), partition.c_str());
     const dds_entity_t subscriber =
         Check(dds_create_subscriber(participant_, qos.get(), nullptr), "DDS subscriber");
     for (const TopicRow& row : Topics()) {
-      if (row.source == source) Read(row, subscriber, ReaderQos(row), listener);
+      if (row.source == source) Read(row, subscriber, ReaderQos(row), listener, inbox);
     }
   }
 
@@ -72,7 +74,7 @@ class Builder {
       if (!is_status && !with_events) continue;
       Qos others = ReaderQos(Row(topic));
       dds_qset_ignorelocal(others.get(), DDS_IGNORELOCAL_PARTICIPANT);
-      Read(Row(topic), subscriber, std::move(others), is_status ? listener : nullptr);
+      Read(Row(topic), subscriber, std::move(others), is_status ? listener : nullptr, nullptr);
     }
   }
 
@@ -92,10 +94,18 @@ class Builder {
   Endpoints endpoints() const { return endpoints_; }
 
  private:
-  void Read(const TopicRow& row, dds_entity_t subscriber, Qos qos, const dds_listener_t* listener) {
-    endpoints_.readers[Index(row)] =
-        Check(dds_create_reader(subscriber, Topic(row), qos.get(), listener),
-              std::string("DDS reader of ") + row.name);
+  void Read(const TopicRow& row, dds_entity_t subscriber, Qos qos, const dds_listener_t* listener,
+            Inbox* inbox) {
+    const dds_entity_t topic = Topic(row);
+    const dds_entity_t reader =
+        inbox == nullptr ? dds_create_reader(subscriber, topic, qos.get(), listener)
+                         : dds_create_reader_rhc(subscriber, topic, qos.get(), listener,
+                                                 inbox->MakeHistory(Index(row), Depth(row)));
+    endpoints_.readers[Index(row)] = Check(reader, std::string("DDS reader of ") + row.name);
+  }
+
+  static std::size_t Depth(const TopicRow& row) {
+    return static_cast<std::size_t>(row.reader_depth);
   }
 
   static std::size_t Index(const TopicRow& row) { return static_cast<std::size_t>(row.id); }
@@ -113,16 +123,16 @@ class Builder {
 }  // namespace
 
 Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
-                        dds_duration_t lease, const dds_listener_t* listener) {
+                        dds_duration_t lease, const dds_listener_t* listener, Inbox* inbox) {
   Builder builder(participant, lease);
   const auto& [of_simulators, of_service, of_other_services, events_too, as_simulator, as_service,
                of_operators, as_operator] = partitions;
-  if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener);
-  if (of_service) builder.Read(Source::kService, *of_service, nullptr);
+  if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener, inbox);
+  if (of_service) builder.Read(Source::kService, *of_service, nullptr, nullptr);
   if (of_other_services) builder.ReadOtherServices(*of_other_services, events_too, listener);
   if (as_service) builder.Write(Source::kService, *as_service);
   if (as_simulator) builder.Write(Source::kSimulators, *as_simulator);
-  if (of_operators) builder.Read(Source::kOperators, *of_operators, nullptr);
+  if (of_operators) builder.Read(Source::kOperators, *of_operators, nullptr, nullptr);
   if (as_operator) builder.Write(Source::kOperators, *as_operator);
   return builder.endpoints();
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "idl/dds/entity.h"
+#include "idl/dds/inbox/inbox.h"
 #include "idl/dds/topics.h"
 
 namespace collision::dds {
@@ -29,9 +30,10 @@ struct Endpoints {
   std::array<dds_entity_t, kTopics> writers{};
 };
 
-/// Makes them; `lease` is that of leased writers (topics.h), and `listener` that of the readers of
-/// what simulators write, and of the status of other services. Throws std::runtime_error.
+/// Makes them; `lease` is that of leased writers (topics.h). What simulators write arrives in
+/// `inbox`, and `listener` is that of its readers and of the status of other services. Throws
+/// std::runtime_error.
 Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
-                        dds_duration_t lease, const dds_listener_t* listener);
+                        dds_duration_t lease, const dds_listener_t* listener, Inbox* inbox);
 
 }  // namespace collision::dds

@@ -2,14 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <optional>
 
+#include "dds/ddsi/ddsi_serdata.h"
 #include "idl/dds/conversion.h"
 
 namespace collision::dds {
 namespace {
 
 constexpr std::size_t kLoan = 256;  // samples at a time: bounds the loan, nothing else
+
+/// Bytes taken from the inbox at once, or a sample more. As a message a sample is at most half as
+/// large again, so that a recorded batch stays below its limit of 64 MiB.
+constexpr std::size_t kInboxBytesAtOnce = std::size_t{16} << 20;
 
 /// Samples borrowed from a reader, given back at the end.
 class Loan {
@@ -45,19 +51,19 @@ void AddServiceEnd(std::uint64_t service, std::vector<v1::Input>* inputs) {
   heard.set_ended(true);
 }
 
-v1::SimulatorLiveliness& AddLiveliness(std::uint64_t sender, std::uint64_t simulator, bool alive,
-                                       std::vector<v1::Input>* inputs) {
+void AddLiveliness(std::uint64_t sender, std::uint64_t simulator, bool alive,
+                   std::vector<v1::Input>* inputs) {
   v1::Input& input = inputs->emplace_back();
   input.set_sender(sender);
   input.mutable_liveliness()->set_simulator_id(simulator);
   input.mutable_liveliness()->set_alive(alive);
-  return *input.mutable_liveliness();
 }
 
+TopicId TopicOf(const ArrivedSample& arrived) { return static_cast<TopicId>(arrived.topic); }
+
 /// A sample that was written only to be disposed of: it tells the sequence of the removal.
-bool IsRemoval(TopicId topic, const void* sample, const dds_sample_info_t& info) {
-  return topic == TopicId::kAgentDescription &&
-         info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE && info.sample_rank == 0 &&
+bool IsRemoval(const ArrivedSample& arrived, const void* sample) {
+  return TopicOf(arrived) == TopicId::kAgentDescription && arrived.is_disposed() &&
          As<collision_v1_AgentDescription>(sample).simulator_name[0] == '\0';
 }
 
@@ -94,6 +100,31 @@ std::optional<std::uint64_t> ClaimedBy(TopicId topic, const void* sample) {
 
 }  // namespace
 
+SampleBuffers::~SampleBuffers() {
+  for (const TopicRow& row : Topics()) {
+    dds_sample_free(samples_[static_cast<std::size_t>(row.id)], row.type, DDS_FREE_ALL);
+  }
+}
+
+const void* SampleBuffers::Decode(const ArrivedSample& arrived) {
+  void*& sample = samples_[arrived.topic];
+  if (sample == nullptr) {
+    const std::size_t size = Topics()[arrived.topic].type->m_size;
+    sample = std::memset(dds_alloc(size), 0, size);
+  }
+  return ddsi_serdata_to_sample(arrived.data.get(), sample, nullptr, nullptr) ? sample : nullptr;
+}
+
+void Intake::AddWriters(const std::vector<NewWriter>& writers) {
+  for (const auto& [topic, sender, writer] : writers) senders_.Add(readers_[topic], writer, sender);
+}
+
+std::size_t Intake::TakeInbox(Inbox* inbox, std::size_t limit, std::vector<v1::Input>* inputs) {
+  const std::vector<ArrivedSample> arrived = inbox->Take(limit, kInboxBytesAtOnce);
+  for (const ArrivedSample& sample : arrived) Receive(sample, inputs);
+  return arrived.size();
+}
+
 std::size_t Intake::Take(dds_entity_t reader, const TopicRow& row, std::size_t limit,
                          std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs) {
   std::size_t taken = 0;
@@ -102,12 +133,11 @@ std::size_t Intake::Take(dds_entity_t reader, const TopicRow& row, std::size_t l
     if (loan.size() == 0) break;
     taken += loan.size();
     for (std::size_t i = 0; i < loan.size(); ++i) {
-      if (row.source == Source::kSimulators) {
-        Receive(reader, row, loan.sample(i), loan.info(i), inputs);
-      } else if (loan.info(i).valid_data && outputs == nullptr) {
+      if (!loan.info(i).valid_data) continue;
+      if (outputs == nullptr) {
         FromWire(row.id, loan.sample(i), &inputs->emplace_back());
         if (row.id == TopicId::kServiceStatus) FollowService(loan.info(i), inputs);
-      } else if (loan.info(i).valid_data && Wanted(row, loan.sample(i))) {
+      } else if (Wanted(row, loan.sample(i))) {
         FromWire(row.id, loan.sample(i), &outputs->emplace_back());
       }
     }
@@ -115,43 +145,28 @@ std::size_t Intake::Take(dds_entity_t reader, const TopicRow& row, std::size_t l
   return taken;
 }
 
-/// The state of the instance is that of now, not of the sample: it belongs behind the newest one.
-void Intake::Receive(dds_entity_t reader, const TopicRow& row, const void* sample,
-                     const dds_sample_info_t& info, std::vector<v1::Input>* inputs) {
-  if (info.valid_data && !IsRemoval(row.id, sample, info)) {
-    ReceiveData(reader, row, sample, info, inputs);
+void Intake::Receive(const ArrivedSample& arrived, std::vector<v1::Input>* inputs) {
+  const void* sample = buffers_.Decode(arrived);
+  if (sample == nullptr) return;
+  // It may have been forgotten while the sample waited, or have written only now.
+  senders_.Add(readers_[arrived.topic], arrived.writer, arrived.sender);
+  if (arrived.has_data() && !IsRemoval(arrived, sample)) {
+    ReceiveData(TopicOf(arrived), sample, arrived.sender, inputs);
   }
-  if (info.sample_rank > 0 || info.instance_state == DDS_ALIVE_INSTANCE_STATE) return;
-  ReceiveEnd(reader, row, sample, info, inputs);
+  if (arrived.is_disposed()) {
+    AddRemoval(TopicOf(arrived), sample, arrived.has_data(), arrived.sender, inputs);
+  }
 }
 
-void Intake::ReceiveData(dds_entity_t reader, const TopicRow& row, const void* sample,
-                         const dds_sample_info_t& info, std::vector<v1::Input>* inputs) {
-  const std::optional<std::uint64_t> sender = senders_.Of(reader, info.publication_handle);
-  if (!sender) {
-    ++orphaned_;
-    return;
-  }
+void Intake::ReceiveData(TopicId topic, const void* sample, std::uint64_t sender,
+                         std::vector<v1::Input>* inputs) {
   v1::Input& input = inputs->emplace_back();
-  input.set_sender(*sender);
-  FromWire(row.id, sample, &input);
-  const std::optional<std::uint64_t> simulator = ClaimedBy(row.id, sample);
-  // Samples may outlast their writer in the reader: its end comes after them.
-  if (simulator && senders_.AddSimulator(*sender, *simulator) && !senders_.alive(*sender)) {
-    AddLiveliness(*sender, *simulator, false, inputs);
-  }
-}
-
-void Intake::ReceiveEnd(dds_entity_t reader, const TopicRow& row, const void* sample,
-                        const dds_sample_info_t& info, std::vector<v1::Input>* inputs) {
-  const std::optional<std::uint64_t> sender = senders_.Of(reader, info.publication_handle);
-  if (info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
-    AddRemoval(row.id, sample, info.valid_data, sender.value_or(0), inputs);
-  }
-  // Follow() reports each known writer by itself.
-  if (row.id == TopicId::kSimulatorClock && !sender) {
-    const auto& key = As<collision_v1_SimulatorClock>(sample);
-    AddLiveliness(0, key.simulator_id, false, inputs).set_incarnation(key.incarnation);
+  input.set_sender(sender);
+  FromWire(topic, sample, &input);
+  const std::optional<std::uint64_t> simulator = ClaimedBy(topic, sample);
+  // Samples may wait for longer than their writer lives: its end comes after them.
+  if (simulator && senders_.AddSimulator(sender, *simulator) && !senders_.alive(sender)) {
+    AddLiveliness(sender, *simulator, false, inputs);
   }
 }
 

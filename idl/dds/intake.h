@@ -1,24 +1,52 @@
 // From samples that arrived to messages.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
 
-#include "idl/dds/senders.h"
+#include "idl/dds/endpoints.h"
+#include "idl/dds/inbox/inbox.h"
+#include "idl/dds/inbox/senders.h"
 #include "idl/dds/topics.h"
 #include "idl/dds/writer_watch.h"
 #include "idl/messages.pb.h"
 
 namespace collision::dds {
 
-/// Takes samples from readers, by loan, and turns them into messages.
+/// One sample of each topic, to decode into: its memory is used again.
+class SampleBuffers {
+ public:
+  SampleBuffers() = default;
+  SampleBuffers(const SampleBuffers&) = delete;
+  SampleBuffers& operator=(const SampleBuffers&) = delete;
+  ~SampleBuffers();
+
+  /// The decoded sample, until the next call for its topic; without data, only its key is set.
+  /// Null: its bytes are no sample.
+  const void* Decode(const ArrivedSample& arrived);
+
+ private:
+  std::array<void*, kTopics> samples_{};
+};
+
+/// Takes samples from readers, by loan, and from the inbox, and turns them into messages.
 class Intake {
  public:
   /// `own` names the one simulator whose clearances and rejections are wanted; 0: those of all.
-  explicit Intake(std::uint64_t own) : own_(own) {}
+  Intake(std::uint64_t own, const Endpoints& endpoints) : own_(own), readers_(endpoints.readers) {}
 
-  /// Takes at most `limit` samples and appends their messages. Returns how many it took.
+  /// Before TakeInbox() takes what they wrote, and after changes were taken that Follow() is to
+  /// report: what a writer wrote has arrived before its end is known.
+  void AddWriters(const std::vector<NewWriter>& writers);
+
+  /// Takes at most `limit` samples that simulators wrote, and appends their messages. Returns how
+  /// many it took.
+  std::size_t TakeInbox(Inbox* inbox, std::size_t limit, std::vector<v1::Input>* inputs);
+
+  /// Likewise from the reader of a topic that simulators do not write.
   std::size_t Take(dds_entity_t reader, const TopicRow& row, std::size_t limit,
                    std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs);
 
@@ -26,23 +54,19 @@ class Intake {
   /// spoken, and each other service that left or fell silent. Call it after Take(): what a program wrote comes before the report of its end.
   void Follow(const std::vector<WriterChange>& changes, std::vector<v1::Input>* inputs);
 
-  std::uint64_t orphaned() const { return orphaned_; }
-
  private:
-  void Receive(dds_entity_t reader, const TopicRow& row, const void* sample,
-               const dds_sample_info_t& info, std::vector<v1::Input>* inputs);
-  void ReceiveData(dds_entity_t reader, const TopicRow& row, const void* sample,
-                   const dds_sample_info_t& info, std::vector<v1::Input>* inputs);
-  void ReceiveEnd(dds_entity_t reader, const TopicRow& row, const void* sample,
-                  const dds_sample_info_t& info, std::vector<v1::Input>* inputs);
+  void Receive(const ArrivedSample& arrived, std::vector<v1::Input>* inputs);
+  void ReceiveData(TopicId topic, const void* sample, std::uint64_t sender,
+                   std::vector<v1::Input>* inputs);
   void FollowService(const dds_sample_info_t& info, std::vector<v1::Input>* inputs);
   bool Wanted(const TopicRow& row, const void* sample) const;
 
   const std::uint64_t own_;
+  const std::array<dds_entity_t, kTopics> readers_;
   Senders senders_;
   /// Which other service wrote a status, by writer, while that lives.
   std::unordered_map<dds_instance_handle_t, std::uint64_t> services_;
-  std::uint64_t orphaned_ = 0;
+  SampleBuffers buffers_;
 };
 
 }  // namespace collision::dds

@@ -71,15 +71,19 @@ dds_entity_t CreateParticipant(std::uint32_t domain) {
 class DdsSession::Implementation {
  public:
   explicit Implementation(const DdsSessionOptions& options)
-      : participant_(CreateParticipant(Checked(options).domain)),
+      : inbox_(options.sender_limits),
+        participant_(CreateParticipant(Checked(options).domain)),
         guard_(Check(dds_create_guardcondition(participant_.get()), "DDS guard condition")),
         endpoints_(dds::MakeEndpoints(participant_.get(), PartitionsOf(options),
-                                      options.lease.count(), watch_.Listen(guard_))),
+                                      options.lease.count(), watch_.Listen(guard_),
+                                      InboxWith(guard_))),
         waitset_(Check(dds_create_waitset(participant_.get()), "DDS waitset")),
-        intake_(options.role == DdsRole::kSimulator ? SimulatorId(options.simulator) : 0) {
+        intake_(options.role == DdsRole::kSimulator ? SimulatorId(options.simulator) : 0,
+                endpoints_) {
     Check(dds_waitset_attach(waitset_, guard_, 0), "DDS waitset");
-    for (const dds_entity_t reader : endpoints_.readers) {
-      if (reader == 0) continue;
+    for (const dds::TopicRow& row : dds::Topics()) {
+      const dds_entity_t reader = endpoints_.readers[static_cast<std::size_t>(row.id)];
+      if (reader == 0 || row.source == dds::Source::kSimulators) continue;
       const dds_entity_t arrived =
           Check(dds_create_readcondition(reader, DDS_ANY_STATE), "DDS read condition");
       Check(dds_waitset_attach(waitset_, arrived, 0), "DDS waitset");
@@ -125,20 +129,38 @@ class DdsSession::Implementation {
 
   std::size_t Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                       std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs) {
-    dds_waitset_wait(waitset_, nullptr, 0, std::max<dds_duration_t>(timeout.count(), 0));
+    const dds_duration_t wait = std::max<dds_duration_t>(timeout.count(), 0);
+    const dds_duration_t ready = inbox_.UntilReady().value_or(wait);
+    dds_waitset_wait(waitset_, nullptr, 0, std::min(wait, ready));
     bool woken = false;
     dds_take_guardcondition(guard_, &woken);
     std::size_t taken = 0;
     for (const dds::TopicRow& row : dds::Topics()) {
       const dds_entity_t reader = endpoints_.readers[static_cast<std::size_t>(row.id)];
       const std::size_t most = std::min(limit - taken, row.take_max);
-      if (reader != 0) taken += intake_.Take(reader, row, most, inputs, outputs);
+      if (reader != 0 && row.source != dds::Source::kSimulators)
+        taken += intake_.Take(reader, row, most, inputs, outputs);
     }
-    intake_.Follow(watch_.Take(), inputs);
+    const std::vector<dds::WriterChange> changes = watch_.Take();
+    intake_.AddWriters(inbox_.TakeNewWriters());
+    if (inputs != nullptr) taken += intake_.TakeInbox(&inbox_, limit - taken, inputs);
+    intake_.Follow(changes, inputs);
     return taken;
   }
 
   void Wake() noexcept { waker_->Wake(); }
+
+  std::vector<DdsIgnored> TakeIgnored() {
+    std::vector<DdsIgnored> taken;
+    for (const auto& [writer, for_ns] : inbox_.TakeIgnoredSenders()) {
+      ++senders_ignored_;
+      const dds_entity_t reader = endpoints_.readers[writer.topic];
+      taken.push_back({dds::PartitionOf(reader, writer.writer), std::chrono::nanoseconds(for_ns)});
+    }
+    return taken;
+  }
+
+  bool TakeRelief() { return inbox_.TakeRelief(); }
 
   bool service_present() const {
     const dds_entity_t reader =
@@ -153,13 +175,11 @@ class DdsSession::Implementation {
     for (const dds_entity_t reader : endpoints_.readers) {
       if (reader == 0) continue;
       dds_sample_lost_status_t lost{};
-      dds_sample_rejected_status_t refused{};
       dds_get_sample_lost_status(reader, &lost);
-      dds_get_sample_rejected_status(reader, &refused);
       counters.samples_lost += lost.total_count;
-      counters.samples_refused += refused.total_count;
     }
-    counters.samples_orphaned = intake_.orphaned();
+    counters.samples_refused = inbox_.refused();
+    counters.senders_ignored = senders_ignored_;
     counters.writes_failed = writes_failed_;
     return counters;
   }
@@ -172,15 +192,22 @@ class DdsSession::Implementation {
     return writer;
   }
 
-  // The watch first: the readers call it until they end with the participant. The waker last: its
-  // thread uses the guard, which lives in the participant.
+  dds::Inbox* InboxWith(dds_entity_t guard) {
+    inbox_.SetGuard(guard);
+    return &inbox_;
+  }
+
+  // Watch and inbox first: the readers call them until they end with the participant. The waker
+  // last: its thread uses the guard, which lives in the participant.
   dds::WriterWatch watch_;
+  dds::Inbox inbox_;
   const dds::Entity participant_;
   const dds_entity_t guard_;
   const dds::Endpoints endpoints_;
   const dds_entity_t waitset_;
   dds::Intake intake_;
   std::uint64_t writes_failed_ = 0;
+  std::uint64_t senders_ignored_ = 0;
   std::optional<dds::Waker> waker_;
 };
 
@@ -221,6 +248,10 @@ std::size_t DdsSession::Receive(std::chrono::nanoseconds timeout, std::size_t li
 }
 
 void DdsSession::Wake() noexcept { implementation_->Wake(); }
+
+std::vector<DdsIgnored> DdsSession::TakeIgnored() { return implementation_->TakeIgnored(); }
+
+bool DdsSession::TakeRelief() { return implementation_->TakeRelief(); }
 
 bool DdsSession::service_present() const { return implementation_->service_present(); }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "idl/dds/inbox/sender_limits.h"
 #include "idl/messages.pb.h"
 
 namespace collision {
@@ -35,14 +36,22 @@ struct DdsSessionOptions {
   /// A clock or a status whose writer the network has not heard of for so long counts as gone.
   /// Under 50 ms a busy machine gives false alarms.
   std::chrono::nanoseconds lease{2'000'000'000};
+
+  /// Of what simulators write, for those that read it.
+  dds::SenderLimits sender_limits = {};
+};
+
+/// A program that the session ignores because it writes far more than it may (SenderLimits).
+struct DdsIgnored {
+  std::string partition;  ///< World and simulator, as it says itself; empty if it has left.
+  std::chrono::nanoseconds duration{0};
 };
 
 /// What did not become a message. All grow from 0.
 struct DdsCounters {
   std::uint64_t samples_lost = 0;     ///< The network gave up on them; newer ones came instead.
-  std::uint64_t samples_refused = 0;  ///< The reader had no room.
-  std::uint64_t samples_orphaned =
-      0;  ///< Their writer had left before its program could be looked up.
+  std::uint64_t samples_refused = 0;  ///< Too many of their sender waited, or it was ignored.
+  std::uint64_t senders_ignored = 0;  ///< How often one began to be.
   std::uint64_t writes_failed =
       0;  ///< DDS did not take them; the next sample of that key replaces them.
 };
@@ -99,14 +108,22 @@ class DdsSession {
   /// Samples of one key come in the order of their writing; there is no order between keys, topics
   /// or writers. SimulatorLiveliness: its sender, which has described the simulator's agents or
   /// published its clock, left or its lease ended (false), or is back (true). It comes after what
-  /// that sender wrote; each of several senders of one simulator is reported. Sender 0, false: the
-  /// clock has no writer left, and the last one is not known.
+  /// that sender wrote; each of several senders of one simulator is reported.
+  ///
+  /// Of what simulators wrote, each call takes equal shares of all of them, at most 16 MiB or a
+  /// sample more, and of each one in the order of its writing, also of different keys of a topic.
   std::size_t Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                       std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs);
 
   /// Ends a Receive() that waits, or else the next one at once. From any thread and from signal
   /// handlers.
   void Wake() noexcept;
+
+  /// The programs that have begun to be ignored since the last call.
+  std::vector<DdsIgnored> TakeIgnored();
+
+  /// True once after much has waited and is gone: memory can be given back to the system.
+  bool TakeRelief();
 
   /// Whether a service writes to this world and has kept its lease. For roles that read the
   /// service.

@@ -13,7 +13,7 @@ const std::array<TopicRow, kTopics>& Topics() {
       {kAgentDescription, "collision/v1/agent_description", &collision_v1_AgentDescription_desc,
        kSimulators, 1, 1, 1, false, kAll},
       {kShapePart, "collision/v1/shape", &collision_v1_ShapePart_desc, kSimulators, 1, 1, 1, false,
-       kShapePartsAtOnce},
+       kAll},
       {kAgentStates, "collision/v1/agent_states", &collision_v1_AgentStates_desc, kSimulators, 1, 1,
        32, false, kAll},
       {kClearance, "collision/v1/clearance", &collision_v1_Clearance_desc, kService, 1, 1, 1, false,

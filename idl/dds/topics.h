@@ -38,20 +38,17 @@ struct TopicRow {
   Source source;
   /// Transient-local: how many newest samples of a key reach readers that join later; 0: volatile.
   int late_joiners_depth;
-  int writer_depth;  ///< Keep-last, per key.
-  int reader_depth;  ///< Keep-last, per key: how many wait for a reader that is slow.
-  bool leased;       ///< Its writer's silence is noticed within the lease.
-  /// Taken at once; the rest stays in the reader until the next Receive(). It bounds what large
-  /// samples may fill of one step, of one recorded batch and of memory beside the reader's.
-  std::size_t take_max;
+  int writer_depth;      ///< Keep-last, per key.
+  int reader_depth;      ///< Keep-last, per key: how many wait for a reader that is slow.
+  bool leased;           ///< Its writer's silence is noticed within the lease.
+  std::size_t take_max;  ///< Taken at once; the rest stays in the reader until the next Receive().
 };
 
 inline constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
-inline constexpr std::size_t kShapePartsAtOnce = 256;  ///< 12.6 MB.
-inline constexpr std::size_t kCommandsAtOnce = 8;      ///< As many answers as a status shows.
+inline constexpr std::size_t kCommandsAtOnce = 8;  ///< As many answers as a status shows.
 
-/// In the order in which a reader drains them: few before many, so that no flood starves the
-/// clocks; and clearances before contacts, so that the contacts that a clearance names are there.
+/// In the order in which readers are drained: clearances before contacts, so that the contacts that
+/// a clearance names are there.
 const std::array<TopicRow, kTopics>& Topics();
 
 inline const TopicRow& Row(TopicId id) { return Topics()[static_cast<std::size_t>(id)]; }

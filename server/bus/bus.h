@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 #include <vector>
 
 #include "idl/messages.pb.h"
@@ -39,6 +40,9 @@ class Bus {
   /// Whether its batches come from a recording and hold everything that the recorded daemon added
   /// to them, so that the daemon adds nothing.
   virtual bool recorded() const { return false; }
+
+  /// What the bus did to protect the service since the last call, a line for the log each.
+  virtual std::vector<std::string> TakeWarnings() { return {}; }
 
   /// What the network did not deliver or accept, for the status: Counters of collision.idl, each
   /// name once.

@@ -1,18 +1,22 @@
 #include "server/bus/dds_bus.h"
 
+#include <malloc.h>
+
 #include <utility>
 
 namespace collision::server {
 namespace {
 
 DdsSessionOptions Options(const std::string& world, std::uint32_t domain,
-                          std::chrono::nanoseconds lease, bool stands_by) {
+                          std::chrono::nanoseconds lease, const dds::SenderLimits& sender_limits,
+                          bool stands_by) {
   DdsSessionOptions options;
   options.world = world;
   options.domain = domain;
   options.role = DdsRole::kService;
   options.lease = lease;
   options.reads_events_of_services = stands_by;
+  options.sender_limits = sender_limits;
   return options;
 }
 
@@ -26,12 +30,14 @@ v1::Counter CounterOf(const std::string& name, std::uint64_t value) {
 }  // namespace
 
 DdsBus::DdsBus(const std::string& world, std::uint32_t domain, std::chrono::nanoseconds lease,
-               bool stands_by)
-    : session_(Options(world, domain, lease, stands_by)) {}
+               const dds::SenderLimits& sender_limits, bool stands_by)
+    : session_(Options(world, domain, lease, sender_limits, stands_by)) {}
 
 bool DdsBus::Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                      std::vector<v1::Input>* inputs) {
   session_.Receive(timeout, limit, inputs, nullptr);
+  // What has been freed stays with the allocator otherwise, for good.
+  if (session_.TakeRelief()) malloc_trim(0);
   ran_ = std::chrono::steady_clock::now();
   return true;
 }
@@ -79,11 +85,21 @@ void DdsBus::Flush() { session_.Flush(); }
 
 void DdsBus::Wake() { session_.Wake(); }
 
+std::vector<std::string> DdsBus::TakeWarnings() {
+  std::vector<std::string> lines;
+  for (const DdsIgnored& ignored : session_.TakeIgnored()) {
+    lines.push_back("a program in partition \"" + ignored.partition +
+                    "\" writes more than it may: it is ignored for " +
+                    std::to_string(ignored.duration / std::chrono::seconds(1)) + " s");
+  }
+  return lines;
+}
+
 std::vector<v1::Counter> DdsBus::network_counters() const {
   const DdsCounters counted = counters();
   return {CounterOf("dds_samples_lost", counted.samples_lost),
           CounterOf("dds_samples_refused", counted.samples_refused),
-          CounterOf("dds_samples_orphaned", counted.samples_orphaned),
+          CounterOf("dds_senders_ignored", counted.senders_ignored),
           CounterOf("dds_writes_failed", counted.writes_failed)};
 }
 

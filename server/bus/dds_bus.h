@@ -11,9 +11,11 @@
 
 namespace collision::server {
 
-/// The service's end of one world. Topics and order: idl/README.md; QoS and what
-/// the network promises: idl/PROTOCOL.md. The only code of the server that knows DDS, by way of
-/// idl/dds.
+/// The service's end of one world. Whatever a program writes, and however many keys it makes up,
+/// the others are heard, and memory is bounded (dds::SenderLimits).
+///
+/// Topics and order: idl/README.md; QoS and what the network promises: idl/PROTOCOL.md. The only
+/// code of the server that knows DDS, by way of idl/dds.
 class DdsBus final : public Bus {
  public:
   /// `lease`: how long this service may be silent before its clients count it as gone; each
@@ -21,10 +23,12 @@ class DdsBus final : public Bus {
   /// the world's name or the domain is out of range, or DDS is not available.
   /// `stands_by`: it also hears of the contacts that other services publish.
   DdsBus(const std::string& world, std::uint32_t domain,
-         std::chrono::nanoseconds lease = std::chrono::seconds(2), bool stands_by = false);
+         std::chrono::nanoseconds lease = std::chrono::seconds(2),
+         const dds::SenderLimits& sender_limits = {}, bool stands_by = false);
 
   /// `limit` counts samples: a sample that also ends its instance adds a removal as a second
-  /// message, and changes of liveliness come on top.
+  /// message, and changes of liveliness come on top. At most 16 MiB of samples or one more, so that
+  /// no batch is too large for a recording. Equal shares of all senders that wait.
   bool Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                std::vector<v1::Input>* inputs) override;
 
@@ -35,6 +39,9 @@ class DdsBus final : public Bus {
   void HoldAfter(std::chrono::nanoseconds standstill) override { standstill_ = standstill; }
   void EndHold(bool publish) override;
   void Wake() override;
+
+  /// The programs that are ignored from now on.
+  std::vector<std::string> TakeWarnings() override;
 
   /// counters(), each with "dds_" before its name.
   std::vector<v1::Counter> network_counters() const override;

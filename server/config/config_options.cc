@@ -110,6 +110,15 @@ constexpr ConfigOption kOptions[] = {
      "widen."},
     {"inputs_per_batch_max", "messages", "1", "1048576", "", "65536",
      "Messages taken from the network in one step; the rest waits for the next."},
+    {"sender_messages_per_second_max", "messages", "100", "100000000", "", "300000",
+     "Messages taken from one program per second, half a second's at once. The rest waits; of a "
+     "program that is far behind, only the newest message of each kind, agent or chunk."},
+    {"sender_bytes_per_second_max", "bytes", "100000", "100000000000", "", "268435456",
+     "Likewise bytes, as on the network."},
+    {"waiting_mb_max", "MB", "1", "65536", "", "128",
+     "Memory for messages that have arrived and wait. Where it is full, each program may fill an "
+     "equal share of it, so that at most twice as much waits. More is refused; a program that goes "
+     "on is ignored for 10 s, the next time for twice as long, up to an hour."},
     {"undescribed_after_s", "s", "0.1", "3600", "", "5",
      "How long states without a description, and agents whose shape has not arrived, wait until "
      "their sender gets a rejection."},

@@ -135,6 +135,7 @@ class Daemon::Implementation {
     }
     PublishStatus();
     bus_.Flush();
+    for (const std::string& line : bus_.TakeWarnings()) Log(spdlog::level::warn, "network", line);
 #ifndef NDEBUG
     world_.Validate();
 #endif

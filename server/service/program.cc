@@ -109,6 +109,12 @@ Journal* OpenJournalLater(const v1::Config& config, std::unique_ptr<Journal>* jo
   return journal->get();
 }
 
+dds::SenderLimits SenderLimitsOf(const v1::Config& config) {
+  return {.samples_per_second = config.sender_messages_per_second_max(),
+          .bytes_per_second = config.sender_bytes_per_second_max(),
+          .waiting_bytes_max = config.waiting_mb_max() * std::size_t{1'000'000}};
+}
+
 /// An id that no other service has: of two random ones, equal with probability 2^-64.
 std::uint64_t DrawInstance() {
   std::random_device source;
@@ -162,7 +168,7 @@ int Serve(const v1::Config& config, const std::string& record_file) {
   try {
     bus = std::make_unique<DdsBus>(config.world(), config.domain(),
                                    std::chrono::nanoseconds(ToNanoseconds(config.lease_s())),
-                                   stands_by);
+                                   SenderLimitsOf(config), stands_by);
   } catch (const std::runtime_error& error) {
     return Fail(kExitUnavailable, error.what());
   }

@@ -58,7 +58,10 @@ std::set<std::uint32_t> RemovalsIn(const std::vector<v1::Input>& inputs) {
 }
 
 /// As of a mesh of a million triangles, written in one go.
-constexpr std::uint32_t kManyParts = 500;
+constexpr std::uint32_t kManyParts = 1000;
+
+/// 16 MiB, rounded up.
+constexpr std::size_t kPartsAtOnce = 338;
 
 TEST(DdsBusShape, ALargeShapeArrivesWholeInBoundedSteps) {
   DdsBus bus(TestWorld(), TestDomain());
@@ -74,7 +77,7 @@ TEST(DdsBusShape, ALargeShapeArrivesWholeInBoundedSteps) {
   while (inputs.size() < kManyParts && std::chrono::steady_clock::now() < end) {
     const std::size_t before = inputs.size();
     bus.Receive(kShort, kNoLimit, &inputs);
-    EXPECT_LE(inputs.size() - before, 256u);
+    EXPECT_LE(inputs.size() - before, kPartsAtOnce);
   }
   EXPECT_EQ(PartsIn(inputs).size(), kManyParts);
   EXPECT_EQ(inputs.size(), kManyParts);

@@ -41,6 +41,7 @@ class Process {
   /// `patience`.
   std::optional<int> WaitForExit(std::chrono::nanoseconds patience = kPatience);
 
+  pid_t pid() const { return pid_; }
   const std::string& out() const { return out_.text; }
   const std::string& err() const { return err_.text; }
 

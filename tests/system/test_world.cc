@@ -103,6 +103,12 @@ std::unique_ptr<Process> TestWorld::StartPlayer(const std::vector<std::string>& 
   return std::make_unique<Process>(InWorld("trajectory-player", words), variables_);
 }
 
+std::unique_ptr<Process> TestWorld::StartFlood(const std::string& what,
+                                               const std::string& amount) const {
+  return std::make_unique<Process>(OnHost({Program("flood"), what, amount, name_, domain_}),
+                                   variables_);
+}
+
 std::unique_ptr<Process> TestWorld::StartMonitor(const std::vector<std::string>& words) const {
   return std::make_unique<Process>(InWorld("collisionctl", words), variables_);
 }

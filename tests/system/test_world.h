@@ -81,6 +81,9 @@ class TestWorld {
   /// Starts a trajectory-player with these words, in this world.
   std::unique_ptr<Process> StartPlayer(const std::vector<std::string>& words) const;
 
+  /// Starts a flood (flood.cc) in this world.
+  std::unique_ptr<Process> StartFlood(const std::string& what, const std::string& amount) const;
+
   /// Starts collisionctl with these words, in this world.
   std::unique_ptr<Process> StartMonitor(const std::vector<std::string>& words) const;
 

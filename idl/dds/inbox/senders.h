@@ -5,17 +5,28 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <string>
 #include <unordered_map>
 
 #include "dds/dds.h"
+#include "dds/ddsi/ddsi_guid.h"
 
 namespace collision::dds {
+
+/// The sender of what a writer with this GUID writes.
+std::uint64_t SenderOf(const ddsi_guid& writer);
+
+/// The first partition of a writer; empty if it has left.
+std::string PartitionOf(dds_entity_t reader, dds_instance_handle_t writer);
 
 /// A sender is a program: the hash of its participant's GUID. Remembers the answers, since a writer
 /// that has left can no longer be looked up while its last samples still wait. One thread.
 class Senders {
  public:
-  /// nullopt if the writer left before it was looked up for the first time.
+  /// A writer of which samples have arrived.
+  void Add(dds_entity_t reader, dds_instance_handle_t writer, std::uint64_t sender);
+
+  /// nullopt if the writer was never added, and has left.
   std::optional<std::uint64_t> Of(dds_entity_t reader, dds_instance_handle_t writer);
 
   /// Records that a known sender speaks for a simulator. Returns whether that is new.

@@ -1,4 +1,6 @@
-#include "idl/dds/senders.h"
+#include "idl/dds/inbox/senders.h"
+
+#include <arpa/inet.h>
 
 #include <algorithm>
 #include <memory>
@@ -7,6 +9,8 @@
 
 namespace collision::dds {
 namespace {
+
+constexpr std::uint32_t kParticipant = 0x1c1;  // ENTITYID_PARTICIPANT of RTPS
 
 constexpr std::size_t kWritersMin = 4096;  // remembered before those that left are dropped
 constexpr std::size_t kSimulatorsPerProgramMax =
@@ -22,6 +26,36 @@ Endpoint Find(dds_entity_t reader, dds_instance_handle_t writer) {
 
 }  // namespace
 
+std::uint64_t SenderOf(const ddsi_guid& writer) {
+  ddsi_guid participant = writer;
+  participant.entityid.u = kParticipant;
+  // The builtin topics have GUIDs in the order of the network.
+  std::uint32_t words[] = {participant.prefix.u[0], participant.prefix.u[1],
+                           participant.prefix.u[2], participant.entityid.u};
+  for (std::uint32_t& word : words) word = htonl(word);
+  return Fnv1a({reinterpret_cast<const char*>(words), sizeof words});
+}
+
+std::string PartitionOf(dds_entity_t reader, dds_instance_handle_t writer) {
+  const Endpoint endpoint = Find(reader, writer);
+  std::uint32_t count = 0;
+  char** names = nullptr;
+  if (!endpoint || !dds_qget_partition(endpoint->qos, &count, &names)) return "";
+  std::string first;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (i == 0) first = names[i];
+    dds_free(names[i]);
+  }
+  dds_free(names);
+  return first;
+}
+
+void Senders::Add(dds_entity_t reader, dds_instance_handle_t writer, std::uint64_t sender) {
+  if (writers_.size() >= std::max(writers_until_cleaning_, kWritersMin)) DropEnded();
+  writers_.try_emplace(writer, Writer{reader, sender});
+  programs_.try_emplace(sender);
+}
+
 std::optional<std::uint64_t> Senders::Of(dds_entity_t reader, dds_instance_handle_t writer) {
   if (const auto known = writers_.find(writer); known != writers_.end())
     return known->second.sender;
@@ -29,9 +63,7 @@ std::optional<std::uint64_t> Senders::Of(dds_entity_t reader, dds_instance_handl
   if (!endpoint) return std::nullopt;
   const auto* guid = reinterpret_cast<const char*>(endpoint->participant_key.v);
   const std::uint64_t sender = Fnv1a({guid, sizeof endpoint->participant_key.v});
-  if (writers_.size() >= std::max(writers_until_cleaning_, kWritersMin)) DropEnded();
-  writers_.emplace(writer, Writer{reader, sender});
-  programs_.try_emplace(sender);
+  Add(reader, writer, sender);
   return sender;
 }
 

@@ -1,0 +1,175 @@
+// Goal:   every sender gets its share, in the order of its writing, whatever the others write; what
+//         waits is bounded; a sender within its rates loses nothing but replaced samples.
+// Method: queues of numbers, and a clock that the test sets.
+#include "idl/dds/inbox/sender_queues.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace collision::dds {
+namespace {
+
+using Queues = SenderQueues<int>;
+using Outcome = Queues::Outcome;
+
+constexpr std::size_t kNoLimit = 1'000'000'000;
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+SampleFacts Of(std::uint64_t sender, std::uint64_t key, std::size_t bytes = 100,
+               std::size_t depth = 1) {
+  SampleFacts facts;
+  facts.sender = facts.key.writer = sender;
+  facts.depth = depth;
+  facts.bytes = bytes;
+  for (std::size_t i = 0; i < 8; ++i) {
+    facts.key.key[i] = static_cast<unsigned char>(key >> (8 * i));
+  }
+  return facts;
+}
+
+std::vector<int> Taken(Queues* queues, std::size_t samples = kNoLimit, std::int64_t now_ns = 0,
+                       std::size_t bytes = kNoLimit) {
+  std::vector<int> items;
+  queues->Take(samples, bytes, now_ns, &items);
+  return items;
+}
+
+TEST(SenderQueues, KeepTheOrderOfASenderAndTheNewestOfAKey) {
+  Queues queues({});
+  for (int i = 0; i < 9; ++i) queues.Put(Of(1, static_cast<std::uint64_t>(i % 3), 100, 2), i, 0);
+  EXPECT_EQ(Taken(&queues), (std::vector<int>{3, 4, 5, 6, 7, 8}));
+  EXPECT_TRUE(Taken(&queues).empty());
+  EXPECT_EQ(queues.waiting_bytes(), 0u);
+}
+
+TEST(SenderQueues, ADisposalReplacesNoSampleAndIsReplacedByNone) {
+  Queues queues({});
+  SampleFacts disposal = Of(1, 0);
+  disposal.key.disposal = true;
+  queues.Put(Of(1, 0), 1, 0);
+  queues.Put(disposal, 2, 0);
+  queues.Put(Of(1, 0), 3, 0);
+  EXPECT_EQ(Taken(&queues), (std::vector<int>{2, 3}));
+}
+
+TEST(SenderQueues, AFloodTakesNoMoreThanItsShareOfABatch) {
+  constexpr int kFlood = 20'000;
+  Queues queues({});
+  for (int i = 0; i < kFlood; ++i) queues.Put(Of(1, static_cast<std::uint64_t>(i)), i, 0);
+  for (std::uint64_t sender = 2; sender <= 4; ++sender) {
+    for (std::uint64_t key = 0; key < 50; ++key) queues.Put(Of(sender, key), -1, 0);
+  }
+  const std::vector<int> batch = Taken(&queues, 1000);
+  EXPECT_EQ(batch.size(), 1000u);
+  EXPECT_EQ(std::count(batch.begin(), batch.end(), -1), 150);
+}
+
+TEST(SenderQueues, ABatchIsBoundedInBytes) {
+  constexpr std::size_t kLarge = 49'000, kBatch = 1'000'000;
+  Queues queues({});
+  for (int i = 0; i < 100; ++i) {
+    queues.Put(Of(1 + static_cast<std::uint64_t>(i % 2), static_cast<std::uint64_t>(i), kLarge), i,
+               0);
+  }
+  const std::vector<int> batch = Taken(&queues, kNoLimit, 0, kBatch);
+  EXPECT_LE(batch.size() * (kLarge + kSampleOverhead), kBatch + kLarge + kSampleOverhead);
+  EXPECT_GE(batch.size() * (kLarge + kSampleOverhead), kBatch);
+  EXPECT_EQ(Taken(&queues).size(), 100 - batch.size());
+}
+
+TEST(SenderQueues, WhatExceedsTheRateWaitsAndComesInTime) {
+  SenderLimits limits;
+  limits.samples_per_second = 1000;
+  Queues queues(limits);
+  for (int i = 0; i < 2000; ++i) queues.Put(Of(1, static_cast<std::uint64_t>(i)), i, 0);
+  queues.Put(Of(2, 0), -1, 0);
+  EXPECT_EQ(Taken(&queues).size(), 501u);  // half a second at once, and the other sender
+  EXPECT_TRUE(Taken(&queues).empty());
+  // Only the first one that waits is worth waking anybody.
+  EXPECT_EQ(queues.Put(Of(1, 5000), 0, 0), Outcome::kOverRate);
+  const auto wait = queues.UntilReady(0);
+  ASSERT_TRUE(wait.has_value());
+  EXPECT_GT(*wait, 0);
+  EXPECT_FALSE(Taken(&queues, kNoLimit, *wait).empty());
+  std::size_t more = 0;
+  for (std::int64_t now = kSecond / 10; now <= kSecond; now += kSecond / 10) {
+    more += Taken(&queues, kNoLimit, now).size();
+  }
+  EXPECT_NEAR(static_cast<double>(more), 1000, 2);
+  for (std::int64_t now = kSecond; now <= 2 * kSecond; now += kSecond / 10) {
+    more += Taken(&queues, kNoLimit, now).size();
+  }
+  EXPECT_NEAR(static_cast<double>(more), 1500, 2);
+  EXPECT_FALSE(queues.UntilReady(3 * kSecond).has_value());
+}
+
+TEST(SenderQueues, ASenderFarBehindKeepsTheNewestOfEachKey) {
+  constexpr std::uint64_t kKeys = 1000;
+  Queues queues({});
+  int number = 0;
+  for (int round = 0; round < 100; ++round) {
+    for (std::uint64_t key = 0; key < kKeys; ++key) queues.Put(Of(1, key, 100, 32), number++, 0);
+  }
+  const std::vector<int> items = Taken(&queues);
+  EXPECT_LE(items.size(), kBehind);
+  EXPECT_GE(items.size(), kKeys);
+  std::vector<int> newest(kKeys);
+  std::iota(newest.begin(), newest.end(), number - static_cast<int>(kKeys));
+  EXPECT_TRUE(std::equal(newest.rbegin(), newest.rend(), items.rbegin()));
+}
+
+// 65536 agents with descriptions, states in chunks of one, and their removals.
+TEST(SenderQueues, TheLargestHonestProgramIsNotRefused) {
+  Queues queues({});
+  for (std::uint64_t key = 0; key < 65536; ++key) {
+    SampleFacts removal = Of(1, key, 20);
+    removal.key.disposal = true;
+    ASSERT_EQ(queues.Put(Of(1, key, 300), 0, 0), Outcome::kWaits);
+    ASSERT_EQ(queues.Put(Of(1, key + 65536, 220, 32), 0, 0), Outcome::kWaits);
+    if (key % 4 == 0) {
+      ASSERT_EQ(queues.Put(removal, 0, 0), Outcome::kWaits);
+    }
+  }
+}
+
+TEST(SenderQueues, EverNewKeysAreBoundedThenIgnoredForLongerEachTime) {
+  SenderLimits limits;
+  limits.waiting_bytes_max = 1'000'000;
+  Queues queues(limits);
+  std::int64_t now = 0;
+  std::uint64_t key = 0;
+  for (std::int64_t expected = kIgnoredFor; expected <= 4 * kIgnoredFor; expected *= 2) {
+    std::size_t refused = 0;
+    for (Outcome outcome = Outcome::kWaits; outcome != Outcome::kIgnoredFromNow; ++key) {
+      outcome = queues.Put(Of(1, key), 0, now);
+      ASSERT_LE(queues.waiting_bytes(), limits.waiting_bytes_max);
+      ASSERT_NE(outcome, Outcome::kIgnored);
+      refused += outcome == Outcome::kRefused ? 1u : 0u;
+    }
+    EXPECT_EQ(refused, kRefusedMax);
+    EXPECT_EQ(queues.waiting_bytes(), 0u);
+    EXPECT_EQ(queues.IgnoredFor(1, now), expected);
+    EXPECT_EQ(queues.Put(Of(1, key), 0, now + expected - 1), Outcome::kIgnored);
+    EXPECT_EQ(queues.Put(Of(2, 0), 7, now), Outcome::kWaits);
+    EXPECT_EQ(Taken(&queues, kNoLimit, now), std::vector<int>{7});
+    now += expected;
+  }
+  EXPECT_EQ(queues.Put(Of(1, key), 0, now), Outcome::kWaits);
+}
+
+TEST(SenderQueues, WhereOneFillsTheMemoryAnotherHasItsShare) {
+  SenderLimits limits;
+  limits.waiting_bytes_max = 1'000'000;
+  Queues queues(limits);
+  std::uint64_t key = 0;
+  while (queues.Put(Of(1, key++), 0, 0) == Outcome::kWaits) {
+  }
+  std::size_t kept = 0;
+  while (queues.Put(Of(2, key++), 0, 0) == Outcome::kWaits) ++kept;
+  EXPECT_GE((kept + 1) * (100 + kSampleOverhead), limits.waiting_bytes_max / 2);
+  EXPECT_LE(queues.waiting_bytes(), 2 * limits.waiting_bytes_max);
+}
+
+}  // namespace
+}  // namespace collision::dds
