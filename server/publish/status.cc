@@ -73,6 +73,8 @@ void AddIntake(const StatusSources& sources, v1::ServiceStatus* status) {
     Count(LowerCase(v1::RejectionReason_Name(value)), sources.rejections.count(value), status);
   }
   Count("removals_ignored", intake.removals_ignored, status);
+  Count("unproven_inputs", sources.intake.unproven().size(), status);
+  Count("unproven_dropped", sources.intake.unproven().dropped(), status);
   Count("rejections_suppressed", sources.rejections.suppressed(), status);
 }
 

@@ -25,9 +25,10 @@ inline constexpr std::int64_t kWakingTime = 1'000'000'000;
 
 /// Whether a sender may speak for a simulator id.
 struct Claim {
-  Simulator* simulator = nullptr;  ///< The one that the id names; null: unknown, and no room.
+  Simulator* simulator = nullptr;  ///< The one that the id names; null: there is none.
   bool accepted = false;
-  bool new_run = false;  ///< Accepted, and a run begins: remove its agents, then StartRun().
+  bool unproven = false;  ///< Neither accepted nor refused: it would be, had it a name.
+  bool new_run = false;   ///< Accepted, and a run begins: remove its agents, then StartRun().
   v1::RejectionReason reason = v1::REJECTED_ID_OWNED;  ///< Unless accepted.
   std::string detail = {};
 };
@@ -36,10 +37,10 @@ struct Claim {
 /// log. One thread.
 ///
 /// **Ownership.** An id belongs to the first sender that names itself, in a description or a clock;
-/// states alone prove nothing. Another sender is refused until the owner is gone *and* the other
-/// one's run is higher. A successor that writes earlier is refused (Contenders) and writes again
-/// when the simulator's report says that the owner is gone. A simulator has left when its process
-/// is gone and it has no agents; it makes room for another one.
+/// states alone prove nothing and make no simulator. Another sender is refused until the owner is
+/// gone *and* the other one's run is higher. A successor that writes earlier is refused
+/// (Contenders) and writes again when the simulator's report says that the owner is gone. A
+/// simulator has left when its process is gone and it has no agents; it makes room for another one.
 ///
 /// **Now.** Simulated clock: it begins with the least first clock, once `simulators_awaited` have
 /// one, and goes on in rounds. All that hold time are granted the same time, and when each has told
@@ -66,8 +67,7 @@ class World {
   explicit World(const v1::Config& config, const std::vector<JournalledSimulator>& roster = {});
 
   /// `name`: as in a description or clock, already checked against the id; null for messages
-  /// without one. Only a named message proves ownership: it takes an id from a sender that never
-  /// named itself.
+  /// without one. Only a named message makes a simulator, or takes over the id of one that is gone.
   Claim ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                  const std::string* name);
 
@@ -191,7 +191,10 @@ class World {
   void Validate() const;
 
  private:
-  Simulator* Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run);
+  Simulator* Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
+                 const std::string& name);
+  Claim ClaimForNew(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
+                    const std::string* name);
   Instant LatestAllowed(const Simulator& simulator) const;
   void BeginWallEpoch();
 

@@ -182,7 +182,9 @@ TEST(ShapeService, RecordsThatAShapeIsReady) {
   MemorySink sink;
   ScriptedDaemon daemon(Simulated(), &sink);
   TwoCubes cubes(1.9);
-  daemon.Step(cubes.Parts());
+  std::vector<v1::Input> first = cubes.Descriptions();
+  for (const v1::Input& part : cubes.Parts()) first.push_back(part);
+  daemon.Step(first);
   daemon.Step(cubes.Tick());
   Fly(&daemon, &cubes, 3);
   int ready = 0;
