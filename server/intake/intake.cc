@@ -274,6 +274,7 @@ void Intake::EndBatch() {
   for (auto& [id, simulator] : world_.simulators()) {
     simulator.time().TakeCensus(simulator.agents().size(), simulator.refusals().descriptions());
   }
+  world_.UpdateQuotas();
   sender_clocks_.WriteNames();
   DropUnproven();
   agent_shapes_.ReleaseLeft();

@@ -20,6 +20,8 @@ World::World(const v1::Config& config, const std::vector<JournalledSimulator>& r
       first_clock_max_(Instant::FromNanoseconds(ToNanoseconds(config.clock().first_clock_max_s()))),
       simulators_awaited_(config.clock().simulators_awaited()),
       simulators_max_(config.simulators_max()),
+      expected_(ExpectedIds(config)),
+      quotas_(config),
       silence_(config, roster),
       wall_time_(ToNanoseconds(config.clock().skew_max_s())),
       // Two clients' clocks may differ by twice the skew.
@@ -30,16 +32,25 @@ Simulator* World::Find(std::uint64_t id) {
   return found == simulators_.end() ? nullptr : &found->second;
 }
 
+/// A simulator whose name is in the configuration has a place, whether it is there or not.
+bool World::HasRoomFor(std::uint64_t id) const {
+  const auto absent = std::count_if(expected_.begin(), expected_.end(), [&](std::uint64_t one) {
+    return one != id && !simulators_.contains(one);
+  });
+  return simulators_.size() + static_cast<std::size_t>(absent) < simulators_max_;
+}
+
 /// In place of one that has left, if there is no room. Null: none has.
 Simulator* World::Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                       const std::string& name) {
-  if (simulators_.size() >= simulators_max_) {
+  while (!HasRoomFor(id)) {
     const auto left = std::find_if(simulators_.begin(), simulators_.end(), [](const auto& one) {
       return one.second.has_left() && one.second.contenders().empty();
     });
     if (left == simulators_.end()) return nullptr;
     simulators_.erase(left);
   }
+  quotas_.Enter(id, name);
   return &simulators_.try_emplace(id, id, sender, run, name).first->second;
 }
 
@@ -79,6 +90,16 @@ Claim World::ClaimForNew(std::uint64_t id, std::uint64_t sender, std::uint32_t r
   claim.detail = "the world has " + std::to_string(simulators_.size()) +
                  " simulators; allowed: at most " + std::to_string(simulators_max_);
   return claim;
+}
+
+void World::UpdateQuotas() {
+  for (const auto& [id, simulator] : simulators_) {
+    if (!simulator.has_left()) quotas_.Enter(id, simulator.name());
+  }
+  quotas_.Keep([this](std::uint64_t id) {
+    const auto found = simulators_.find(id);
+    return found != simulators_.end() && !found->second.has_left();
+  });
 }
 
 std::optional<ClockStep> World::SetReading(const ClockReading& reading) {

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "idl/config.pb.h"
 #include "server/bus/clock.h"
 #include "server/codec/codec.h"
+#include "server/quotas/simulator_quotas.h"
 #include "server/world/silence.h"
 #include "server/world/silence/ended_runs.h"
 #include "server/world/simulator.h"
@@ -73,6 +75,13 @@ class World {
 
   /// Null: unknown.
   Simulator* Find(std::uint64_t id);
+
+  /// What its simulators may have of the limits of the world. A simulator that has left is
+  /// guaranteed nothing: call UpdateQuotas() once a step, after the inputs.
+  SimulatorQuotas& quotas() { return quotas_; }
+  const SimulatorQuotas& quotas() const { return quotas_; }
+  void UpdateQuotas();
+
   std::map<std::uint64_t, Simulator>& simulators() { return simulators_; }
   const std::map<std::uint64_t, Simulator>& simulators() const { return simulators_; }
 
@@ -191,6 +200,7 @@ class World {
   void Validate() const;
 
  private:
+  bool HasRoomFor(std::uint64_t id) const;
   Simulator* Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                  const std::string& name);
   Claim ClaimForNew(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
@@ -205,8 +215,10 @@ class World {
   const Instant first_clock_max_;
   const std::size_t simulators_awaited_;
   const std::size_t simulators_max_;
+  const std::set<std::uint64_t> expected_;  ///< Ids whose names the configuration has.
 
   std::map<std::uint64_t, Simulator> simulators_;
+  SimulatorQuotas quotas_;
   Silence silence_;
   EndedRuns ended_runs_;
   std::uint32_t epoch_ = 1;

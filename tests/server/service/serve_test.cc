@@ -42,7 +42,8 @@ class BlockingBus final : public Bus {
   std::promise<void> never_;
 };
 
-/// Hands out one batch, then waits until it is woken; fails a check at the first clearance of an agent.
+/// Hands out one batch, then waits until it is woken; fails a check at the first clearance of an
+/// agent.
 class FailingBus final : public Bus {
  public:
   explicit FailingBus(std::vector<v1::Input> inputs) : inputs_(std::move(inputs)) {}

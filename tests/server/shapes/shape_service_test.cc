@@ -102,7 +102,9 @@ class MemorySink final : public BatchSink {
 class LateShapeBuilder final : public ShapeBuilder {
  public:
   explicit LateShapeBuilder(const bool* late) : late_(*late) {}
-  void Start(const std::string& hash, std::string bytes) override { inline_.Start(hash, bytes); }
+  void Start(const std::string& hash, std::string bytes, std::uint64_t simulator) override {
+    inline_.Start(hash, bytes, simulator);
+  }
   bool has_finished() const override { return !late_ && inline_.has_finished(); }
   std::vector<ReadyTree> TakeFinished() override {
     return late_ ? std::vector<ReadyTree>() : inline_.TakeFinished();
