@@ -103,8 +103,8 @@ class PairTable {
   using Owner = SharedLimit<OwnerId>::Account;
 
   void UpdateFull(AgentIndex agent);
-  /// Pairs that the agent's owner may still have. The exhaustive broad phase also asks about indices
-  /// that no agent has.
+  /// Pairs that the agent's owner may still have. The exhaustive broad phase also asks about
+  /// indices that no agent has.
   std::size_t OwnersRoom(AgentIndex agent) const {
     const Owner* owner = owner_of_[agent];
     return owner == nullptr ? room() : owners_.RoomFor(*owner, room());
