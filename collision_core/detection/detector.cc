@@ -26,6 +26,9 @@ bool Detector::Remove(const AgentId& id) { return implementation_->Remove(id); }
 void Detector::SetHeardUntil(const OwnerId& owner, Instant until) {
   implementation_->SetHeardUntil(owner, until);
 }
+void Detector::SetPairShare(const OwnerId& owner, const Share& share) {
+  implementation_->SetPairShare(owner, share);
+}
 void Detector::VoidOwner(const OwnerId& owner, Instant from) {
   implementation_->VoidOwner(owner, from);
 }

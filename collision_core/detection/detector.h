@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "collision_core/base/shared_limit.h"
 #include "collision_core/detection/agents/agent_declaration.h"
 #include "collision_core/detection/clearance/keys/agent_clearance.h"
 #include "collision_core/detection/earliest/earliest_answer.h"
@@ -76,6 +77,11 @@ class Detector {
   /// contacts are evaluated up to there. Holds for all agents of the owner, also for those admitted
   /// later; has no effect while it has none. Never goes back. O(log owners).
   void SetHeardUntil(const OwnerId& owner, Instant until);
+
+  /// The owner's part of `pairs_max`; a pair of two owners counts for both. Beyond it, its agents
+  /// are saturated, and so are agents of others that meet them. Has no effect while it has no
+  /// agents; without this call it may have all that others are not guaranteed (SharedLimit).
+  void SetPairShare(const OwnerId& owner, const Share& share);
 
   /// The clock of one run of a simulator turned out to be off by more than its bounds allow for, so
   /// that none of its states is believed: in the next step its agents expire, each to come back

@@ -24,6 +24,7 @@ class Detector::Implementation {
   bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
   bool Remove(const AgentId& id);
   void SetHeardUntil(const OwnerId& owner, Instant until) { agents_.SetHeardUntil(owner, until); }
+  void SetPairShare(const OwnerId& owner, const Share& share) { pairs_.SetShare(owner, share); }
   void VoidOwner(const OwnerId& owner, Instant from);
   void Advance(Instant now);
 

@@ -49,7 +49,7 @@ Refusal NotDescribed(const detection::AgentId& agent, std::string detail) {
           .detail = std::move(detail)};
 }
 
-Refusal NoRoom(const detection::AgentId& agent, std::uint32_t agents_max) {
+Refusal NoRoom(const detection::AgentId& agent, std::string detail) {
   return {.reason = v1::REJECTED_TOO_MANY_AGENTS,
           .topic = v1::TOPIC_AGENT_DESCRIPTION,
           .simulator_id = agent.simulator,
@@ -57,8 +57,7 @@ Refusal NoRoom(const detection::AgentId& agent, std::uint32_t agents_max) {
           .slot = agent.slot,
           .generation = agent.generation,
           .field = "slot",
-          .detail = "the world has no room for another agent; allowed: at most " +
-                    std::to_string(agents_max)};
+          .detail = std::move(detail)};
 }
 
 Refusal NotItsOwn(const v1::AgentRemoval& wire) {

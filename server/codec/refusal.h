@@ -33,7 +33,7 @@ Refusal At(const v1::SimulatorClock& wire);
 Refusal NotDescribed(const detection::AgentId& agent, std::string detail);
 
 /// Refuses a complete agent for which there is no room.
-Refusal NoRoom(const detection::AgentId& agent, std::uint32_t agents_max);
+Refusal NoRoom(const detection::AgentId& agent, std::string detail);
 
 /// Refuses a removal that does not come from the owner.
 Refusal NotItsOwn(const v1::AgentRemoval& wire);

@@ -149,7 +149,7 @@ constexpr ConfigOption kOptions[] = {
      "refused."},
     {"shape_bytes_max", "bytes", "1048576", "1099511627776", "", "268435456",
      "Maximum memory for the arrived parts and the meshes of all shapes together. A part that does "
-     "not fit is refused. Trees come on top (tree_bytes in the status)."},
+     "not fit is refused. Trees have their own limit, tree_bytes_max."},
     {"broad_phase", "none", "", "", "AUTO, ALL_PAIRS or SPATIAL_INDEX", "AUTO",
      "How candidate pairs are found. All methods give the same answers and differ in cost. AUTO "
      "takes ALL_PAIRS for few agents, SPATIAL_INDEX for many, and in between the one that does "
@@ -186,6 +186,11 @@ constexpr ConfigOption kOptions[] = {
     {"lease_s", "s", "0.05", "2", "", "2",
      "The network counts this service as gone when it has not been heard for so long; a standby "
      "then takes over. Under 0.1 a busy machine gives false alarms."},
+    {"tree_bytes_max", "bytes", "1048576", "1099511627776", "", "4294967296",
+     "Maximum memory for the sphere trees of all shapes together, some hundred MB for a million "
+     "triangles. A shape whose tree does not fit is refused; where only its finer tree does not, "
+     "it "
+     "keeps the coarse one."},
 };
 
 class Silent final : public google::protobuf::io::ErrorCollector {

@@ -15,6 +15,20 @@ constexpr std::string_view kHead =
     "left out; its "
     "default then holds. --check-config checks a file, --print-config prints one like this.";
 
+constexpr std::string_view kLimitsMeaning =
+    "What a simulator may have of the limits above: limits { name: \"drone-*\" agents_max: 100 }, "
+    "as "
+    "often as needed. The first block whose name fits counts; * stands for any characters. Fields: "
+    "guaranteed (the part of each limit that is kept for it as long as it is in the world, or "
+    "always "
+    "if the name has no *; unset: 1 / (simulators_max + 1)), agents_max, pairs_max, shapes_max, "
+    "shape_bytes_max, tree_bytes_max, rejections_per_second_max (unset: all). A simulator may have "
+    "what is free, less what the others have not used of what they are guaranteed.";
+
+constexpr std::string_view kLimitsFacts =
+    "Unit: that of the limit; of guaranteed none. Range: from 1 to the limit of the world; of "
+    "guaranteed 0 to 1; at most 64 blocks. Default: no block.";
+
 /// As a comment, broken between words.
 void PrintComment(std::string_view text, const std::string& indent, std::ostream& out) {
   std::istringstream words{std::string(text)};
@@ -57,6 +71,17 @@ std::string PrintConfig(const v1::Config& complete) {
     if (!in_clock && of_clock) out << "clock {\n";
     in_clock = of_clock;
     PrintOption(complete, option, of_clock ? "  " : "", out);
+  }
+  out << '\n';
+  PrintComment(kLimitsMeaning, "", out);
+  PrintComment(kLimitsFacts, "", out);
+  for (const v1::SimulatorLimits& block : complete.limits()) {
+    std::string text;
+    google::protobuf::TextFormat::PrintToString(block, &text);
+    std::istringstream lines(text);
+    out << "limits {\n";
+    for (std::string line; std::getline(lines, line);) out << "  " << line << '\n';
+    out << "}\n";
   }
   return out.str();
 }

@@ -136,7 +136,9 @@ std::string Explain(const std::string& path, const std::string& message) {
   if (option != options.end()) {
     return path + ": " + Legible(message) + "; allowed: " + AllowedRange(*option);
   }
-  const ConfigOption* meant = FindConfigOption(path.substr(path.rfind('.') + 1));
+  const bool in_limits = path.starts_with("limits.");
+  const ConfigOption* meant =
+      in_limits ? nullptr : FindConfigOption(path.substr(path.rfind('.') + 1));
   return path + ": " + Legible(message) +
          (meant == nullptr ? "" : "; meant is " + std::string(meant->path) + "?");
 }

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "server/process/logging.h"
@@ -110,7 +111,8 @@ void AgentRegistry::Update(Simulator* simulator, std::uint32_t slot, std::uint64
   CountAccepted(simulator);
   simulator->agents().Acknowledge(slot, state.stamp, sequence);
   if (outcome == detection::UpdateOutcome::kBreached) {
-    Log(spdlog::level::warn, "declared bound violated",
+    LogAbout(
+        spdlog::level::warn, "declared bound violated", simulator->name(),
         fmt::format(
             "simulator {:016x} \"{}\" slot {} generation {}: its state at {} ns cannot "
             "follow from the one before; detection goes on from the new state. Declare wider "
@@ -206,12 +208,21 @@ void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
   const WaitingState* waiting = agents.Waiting(slot);
   if (agent == nullptr || agent->admitted() || waiting == nullptr) return;
   if (waiting->generation != agent->generation()) return;
-  if (detector_.agents() >= agents_max_) {
-    const detection::AgentId id = simulator->IdOf(slot, agent->generation());
-    if (!std::exchange(agent->room_refused, true)) rejections_.Add(NoRoom(id, agents_max_));
-    return;
+  if (!HasRoomForAgent(*simulator)) {
+    if (std::exchange(agent->room_refused, true)) return;
+    return rejections_.Add(NoRoom(
+        simulator->IdOf(slot, agent->generation()),
+        fmt::format("no room for another agent: this simulator has {} of the world's {}; allowed: "
+                    "at most {} and {}, less what is guaranteed to other simulators",
+                    world_.quotas().Used(simulator->id(), Resource::kAgents), detector_.agents(),
+                    world_.quotas().ShareOf(simulator->id(), Resource::kAgents).max, agents_max_)));
   }
   Admit(simulator, slot, agents.TakeWaiting(slot).back());
+}
+
+bool AgentRegistry::HasRoomForAgent(const Simulator& simulator) const {
+  const std::uint64_t free = agents_max_ - std::min<std::uint64_t>(agents_max_, detector_.agents());
+  return world_.quotas().RoomFor(simulator.id(), Resource::kAgents, free) > 0;
 }
 
 void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting) {
@@ -227,6 +238,8 @@ void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const Waitin
     return;
   }
   if (agent.former) detector_.Redeclare(id, declared, effective);
+  world_.quotas().Take(simulator->id(), Resource::kAgents, 1);
+  detector_.SetPairShare(OwnerOf(id), world_.quotas().ShareOf(simulator->id(), Resource::kPairs));
   ++counters_.admitted;
   if (agent.room_refused) {
     simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, slot);
@@ -268,13 +281,17 @@ void AgentRegistry::RemoveNow(Simulator* simulator, std::uint32_t slot) {
 }
 
 void AgentRegistry::RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent* agent) {
-  if (agent->admitted()) {
-    detector_.Remove(simulator->IdOf(slot, agent->generation()));
-    ++counters_.removed;
-  }
+  Withdraw(*simulator, slot, *agent);
   shapes_.Refer(simulator, slot, {}, agent);
   simulator->agents().Remove(slot);
   simulator->refusals().RemoveAgent(slot);
+}
+
+void AgentRegistry::Withdraw(const Simulator& simulator, std::uint32_t slot, const Agent& agent) {
+  if (!agent.admitted()) return;
+  detector_.Remove(simulator.IdOf(slot, agent.generation()));
+  world_.quotas().GiveBack(simulator.id(), Resource::kAgents, 1);
+  ++counters_.removed;
 }
 
 void AgentRegistry::RemoveAll(Simulator* simulator) {
@@ -287,11 +304,7 @@ void AgentRegistry::RemoveAll(Simulator* simulator) {
 void AgentRegistry::ExpelAll(Simulator* simulator) {
   AgentTable& agents = simulator->agents();
   agents.ForEachSlot([&](std::uint32_t slot) {
-    const Agent* agent = agents.Find(slot);
-    if (agent != nullptr && agent->admitted()) {
-      detector_.Remove(simulator->IdOf(slot, agent->generation()));
-      ++counters_.removed;
-    }
+    if (const Agent* agent = agents.Find(slot)) Withdraw(*simulator, slot, *agent);
     agents.Expel(slot);
   });
 }

@@ -30,10 +30,10 @@ struct AgentCounters {
 /// state with the jumps before it, the newest description, a removal. An agent enters the detector
 /// when its description and a state are there and, with a simulated clock, the first clock of its
 /// simulator is in force. A state without a description is kept and reported to its sender after
-/// `undescribed_after_s`. If there is no room for another agent, its owner gets one rejection; the
-/// agent is admitted with its next state once there is room. A new generation ends the agent of its
-/// slot; late states of ended ones count as older. A change that may lower promises counts from
-/// World::EffectiveFrom().
+/// `undescribed_after_s`. If the world, or the quota of the simulator, has no room for another
+/// agent, its owner gets one rejection; the agent is admitted with its next state once there is
+/// room. A new generation ends the agent of its slot; late states of ended ones count as older. A
+/// change that may lower promises counts from World::EffectiveFrom().
 ///
 /// With a wall clock the states of one batch take effect one by one, since each narrows what could
 /// have happened between its neighbours. One thread.
@@ -107,6 +107,9 @@ class AgentRegistry {
   void AdmitIfComplete(Simulator* simulator, std::uint32_t slot);
   void Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
   void RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent* agent);
+  /// The agent leaves the detector, if it is in it.
+  void Withdraw(const Simulator& simulator, std::uint32_t slot, const Agent& agent);
+  bool HasRoomForAgent(const Simulator& simulator) const;
   void CountAccepted(Simulator* simulator);
 
   const std::uint32_t agents_max_;

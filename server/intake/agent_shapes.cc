@@ -35,7 +35,9 @@ void LogShape(const std::string& hash, const ReadyShape& ready) {
                   shape.tree().nodes.size(), shape.tree().levels,
                   built.from_cache ? "from the cache" : "built",
                   static_cast<double>(built.microseconds) / 1000,
-                  built.coarse ? "; coarse, a finer tree follows" : ""));
+                  built.coarse         ? "; coarse, a finer tree follows"
+                  : ready.stays_coarse ? "; stays coarse, no room for a finer tree (tree_bytes_max)"
+                                       : ""));
 }
 
 }  // namespace

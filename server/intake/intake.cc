@@ -47,6 +47,10 @@ void Intake::Apply(const v1::Input& input) {
 
 Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::string* name) {
   const Claim claim = world_.ClaimFor(where.simulator_id, input.sender(), where.run, name);
+  if (claim.unproven) {
+    AwaitName(input, where.simulator_id);
+    return nullptr;
+  }
   if (!claim.accepted) {
     where.reason = claim.reason;
     where.field = claim.reason == v1::REJECTED_OLD_RUN ? "run" : "simulator_id";
@@ -68,9 +72,41 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
     shapes_.Release(claim.simulator->id());
     claim.simulator->StartRun(input.sender(), where.run);
   }
-  if (name != nullptr) claim.simulator->SetIncarnation(where.incarnation);
+  if (name != nullptr) {
+    claim.simulator->SetIncarnation(where.incarnation);
+    ApplyProved(*claim.simulator);
+  }
   if (where.topic != v1::TOPIC_SIMULATOR_CLOCK) claim.simulator->CountTold();
   return claim.simulator;
+}
+
+void Intake::AwaitName(const v1::Input& input, std::uint64_t simulator_id) {
+  if (input.sender() == 0) return;  // An instance has ended with its writer: no name will come.
+  unproven_.Add(world_.monotonic_ns(), simulator_id, input);
+}
+
+void Intake::ApplyProved(const Simulator& simulator) {
+  const UnprovenInputs::Proved proved = unproven_.Take(simulator.id(), simulator.sender());
+  for (const v1::Input& input : proved.inputs) Apply(input);
+  if (proved.lost == 0) return;
+  rejections_.Add({.reason = v1::REJECTED_TOO_MANY_SIMULATORS,
+                   .topic = v1::TOPIC_AGENT_STATES,
+                   .simulator_id = simulator.id(),
+                   .run = simulator.run(),
+                   .incarnation = simulator.incarnation(),
+                   .field = "simulator_id",
+                   .detail = fmt::format("{} messages came before the name of their simulator and "
+                                         "were dropped; allowed: {} bytes of all such messages",
+                                         proved.lost, kUnprovenBytesMax)});
+}
+
+void Intake::DropUnproven() {
+  const std::uint64_t dropped = unproven_.DropOverdue(world_.monotonic_ns());
+  if (dropped == 0) return;
+  Log(spdlog::level::warn, "no such simulator",
+      fmt::format("{} messages are dropped: for {} s no description or clock of their senders has "
+                  "named the simulator whose id they carry",
+                  dropped, kUnprovenTime / 1'000'000'000));
 }
 
 void Intake::TakeDescription(const v1::Input& input) {
@@ -166,7 +202,7 @@ bool Intake::MayRemove(const Simulator& simulator, const v1::Input& input, bool 
 void Intake::TakeRemoval(const v1::Input& input) {
   const v1::AgentRemoval& removal = input.agent_removal();
   Simulator* simulator = world_.Find(removal.simulator_id());
-  if (simulator == nullptr) return;
+  if (simulator == nullptr) return AwaitName(input, removal.simulator_id());
   const bool is_owners = removal.incarnation() == simulator->incarnation();
   if (!MayRemove(*simulator, input, is_owners, NotItsOwn(removal))) return;
   simulator->time().RecordDescriptions(removal.sequence());
@@ -174,6 +210,7 @@ void Intake::TakeRemoval(const v1::Input& input) {
 }
 
 void Intake::TakeLiveliness(const v1::Input& input) {
+  if (!input.liveliness().alive()) unproven_.Forget(input.sender());
   Simulator* simulator = world_.Find(input.liveliness().simulator_id());
   if (simulator == nullptr) return;
   const bool alive = input.liveliness().alive();
@@ -205,7 +242,7 @@ void Intake::TakeShapePart(const v1::Input& input) {
 void Intake::TakeShapeRemoval(const v1::Input& input) {
   const v1::ShapeRemoval& removal = input.shape_removal();
   const Simulator* simulator = world_.Find(removal.simulator_id());
-  if (simulator == nullptr) return;
+  if (simulator == nullptr) return AwaitName(input, removal.simulator_id());
   // The numbers of another program are other ones.
   const bool is_owners = shapes_.Knows(removal.simulator_id(), removal.shape());
   if (!MayRemove(*simulator, input, is_owners, NotItsOwn(removal))) return;
@@ -245,7 +282,9 @@ void Intake::EndBatch() {
   for (auto& [id, simulator] : world_.simulators()) {
     simulator.time().TakeCensus(simulator.agents().size(), simulator.refusals().descriptions());
   }
+  world_.UpdateQuotas();
   sender_clocks_.WriteNames();
+  DropUnproven();
   agent_shapes_.ReleaseLeft();
   agents_.ReportUndescribed();
   agent_shapes_.ReportMissing();
@@ -270,7 +309,7 @@ std::optional<std::int64_t> Intake::NextDue() const {
   const std::optional<std::int64_t> wait =
       world_.simulated() ? agent_shapes_.wait().NextDue() : std::nullopt;
   std::optional<std::int64_t> next;
-  for (const auto& due : {state, shape, wait}) {
+  for (const auto& due : {state, shape, wait, unproven_.NextDue()}) {
     if (due) next = next ? std::min(*next, *due) : *due;
   }
   return next;

@@ -10,6 +10,7 @@
 #include "server/intake/agent_registry.h"
 #include "server/intake/agent_shapes.h"
 #include "server/intake/sender_clocks.h"
+#include "server/intake/unproven_inputs.h"
 #include "server/shapes/shape_store.h"
 #include "server/world/rejections.h"
 #include "server/world/world.h"
@@ -73,18 +74,26 @@ class Intake {
   void ExpelAgents();
 
   SenderClocks& sender_clocks() { return sender_clocks_; }
+  const UnprovenInputs& unproven() const { return unproven_; }
 
   const IntakeCounters& counters() const { return counters_; }
   const AgentCounters& agent_counters() const { return agents_.counters(); }
 
-  /// The monotonic time at which the next missing description or shape is reported; nullopt: none
-  /// is missing.
+  /// The monotonic time at which the next missing name, description or shape is overdue; nullopt:
+  /// none is missing.
   std::optional<std::int64_t> NextDue() const;
 
  private:
   /// The simulator that the input speaks for, its former run ended where a new one begins; null:
-  /// refused. `name`: as in World::ClaimFor().
+  /// refused, or it waits for the name of its sender. `name`: as in World::ClaimFor().
   Simulator* Claimed(const v1::Input& input, Refusal where, const std::string* name);
+
+  /// No simulator has this id, or its owner is gone: the input waits for a name that proves it.
+  void AwaitName(const v1::Input& input, std::uint64_t simulator_id);
+
+  /// A sender has named itself as this simulator: what it wrote before counts.
+  void ApplyProved(const Simulator& simulator);
+  void DropUnproven();
 
   /// Whether a removal is the owner's; else it is refused. `is_owners`: without a sender, what it
   /// names is the owner's.
@@ -110,6 +119,7 @@ class Intake {
   AgentShapes agent_shapes_;
   AgentRegistry agents_;
   SenderClocks sender_clocks_;
+  UnprovenInputs unproven_;
   IntakeCounters counters_;
 };
 

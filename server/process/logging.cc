@@ -9,10 +9,7 @@
 namespace collision::server {
 namespace {
 
-/// Matters are constants of the program, some dozens. Any beyond these share one limit, so that a
-/// matter that is built from input by mistake cannot fill memory.
-constexpr std::size_t kMattersMax = 256;
-constexpr std::string_view kOther = "other matters";
+constexpr const char* kOther = "other matters";
 
 /// The process has one log, as it has one default logger.
 struct ProcessLog {
@@ -41,10 +38,15 @@ void StartLogging(const std::string& level, const std::string& file) {
 }
 
 void Log(spdlog::level::level_enum level, std::string_view matter, std::string_view text) {
+  LogAbout(level, matter, {}, text);
+}
+
+void LogAbout(spdlog::level::level_enum level, std::string_view matter, std::string_view subject,
+              std::string_view text) {
   if (!spdlog::default_logger_raw()->should_log(level)) return;
   ProcessLog& log = TheLog();
   const std::lock_guard lock(log.mutex);
-  log.limiter.Write(std::chrono::steady_clock::now(), level, matter, text);
+  log.limiter.Write(std::chrono::steady_clock::now(), level, matter, text, subject);
 }
 
 void EndLogging() {
@@ -54,9 +56,10 @@ void EndLogging() {
 }
 
 void MatterLimiter::Write(Time now, spdlog::level::level_enum level, std::string_view matter,
-                          std::string_view text) {
-  WriteOverdueCounts(now, matter);
-  Matter& known = Find(now, matter);
+                          std::string_view text, std::string_view subject) {
+  const Name name(matter, subject);
+  WriteOverdueCounts(now, name);
+  Matter& known = Find(now, name);
   if (now - known.written < kMatterPeriod) {
     ++known.held_back;
     known.level = level;
@@ -69,13 +72,24 @@ void MatterLimiter::Write(Time now, spdlog::level::level_enum level, std::string
   sink_(level, line);
 }
 
-MatterLimiter::Matter& MatterLimiter::Find(Time now, std::string_view matter) {
-  const bool full = matters_.size() >= kMattersMax && !matters_.contains(matter);
-  const std::string name(full ? kOther : matter);
-  return matters_.try_emplace(name, Matter{.written = now - kMatterPeriod}).first->second;
+MatterLimiter::Matter& MatterLimiter::Find(Time now, const Name& name) {
+  const Matter unwritten{.written = now - kMatterPeriod};
+  if (matters_.size() < kMattersMax || matters_.contains(name)) {
+    return matters_.try_emplace(name, unwritten).first->second;
+  }
+  ForgetIdle(now);
+  const bool full = matters_.size() >= kMattersMax;
+  return matters_.try_emplace(full ? Name(kOther, {}) : name, unwritten).first->second;
 }
 
-void MatterLimiter::WriteOverdueCounts(Time now, std::string_view besides) {
+/// Simulators come and go: what holds no line back and could write one at once says nothing more.
+void MatterLimiter::ForgetIdle(Time now) {
+  std::erase_if(matters_, [now](const auto& matter) {
+    return matter.second.held_back == 0 && now - matter.second.written >= kMatterPeriod;
+  });
+}
+
+void MatterLimiter::WriteOverdueCounts(Time now, const Name& besides) {
   for (auto& [name, matter] : matters_) {
     if (name == besides || matter.held_back == 0 || now - matter.written < kMatterPeriod) continue;
     WriteCount(name, &matter);
@@ -87,9 +101,11 @@ void MatterLimiter::WriteAllCounts() {
   for (auto& [name, matter] : matters_) WriteCount(name, &matter);
 }
 
-void MatterLimiter::WriteCount(const std::string& name, Matter* matter) {
+void MatterLimiter::WriteCount(const Name& name, Matter* matter) {
   if (matter->held_back == 0) return;
-  sink_(matter->level, name + ": lines suppressed: " + std::to_string(matter->held_back));
+  const std::string about = name.second.empty() ? "" : " (" + name.second + ")";
+  sink_(matter->level,
+        name.first + about + ": lines suppressed: " + std::to_string(matter->held_back));
   matter->held_back = 0;
 }
 

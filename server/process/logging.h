@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace collision::server {
 
@@ -21,9 +22,17 @@ void StartLogging(const std::string& level, const std::string& file);
 /// refused"), never built from input: no input can fill a disk. Any thread.
 void Log(spdlog::level::level_enum level, std::string_view matter, std::string_view text);
 
+/// The same for a matter of one simulator: what is said of one does not hold back what is said of
+/// others. `subject`: the name of a simulator of the world. Any thread.
+void LogAbout(spdlog::level::level_enum level, std::string_view matter, std::string_view subject,
+              std::string_view text);
+
 /// Writes the counts of lines that are still held back; call it before the program ends. Any
 /// thread.
 void EndLogging();
+
+/// Matters of which one is written in a period; all further ones share one more.
+inline constexpr std::size_t kMattersMax = 256;
 
 /// Short enough to see a matter at once, long enough that no input can fill a disk.
 inline constexpr std::chrono::seconds kMatterPeriod{1};
@@ -37,7 +46,7 @@ class MatterLimiter {
   explicit MatterLimiter(Sink sink) : sink_(std::move(sink)) {}
 
   void Write(Time now, spdlog::level::level_enum level, std::string_view matter,
-             std::string_view text);
+             std::string_view text, std::string_view subject = {});
 
   /// Writes every count of lines held back, whatever the time.
   void WriteAllCounts();
@@ -48,12 +57,15 @@ class MatterLimiter {
     std::uint64_t held_back = 0;
     spdlog::level::level_enum level = spdlog::level::info;
   };
-  Matter& Find(Time now, std::string_view matter);
-  void WriteOverdueCounts(Time now, std::string_view besides);
-  void WriteCount(const std::string& name, Matter* matter);
+  using Name = std::pair<std::string, std::string>;  ///< Matter, subject.
+
+  Matter& Find(Time now, const Name& name);
+  void ForgetIdle(Time now);
+  void WriteOverdueCounts(Time now, const Name& besides);
+  void WriteCount(const Name& name, Matter* matter);
 
   Sink sink_;
-  std::map<std::string, Matter, std::less<>> matters_;
+  std::map<Name, Matter> matters_;
 };
 
 }  // namespace collision::server

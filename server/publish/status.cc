@@ -73,6 +73,8 @@ void AddIntake(const StatusSources& sources, v1::ServiceStatus* status) {
     Count(LowerCase(v1::RejectionReason_Name(value)), sources.rejections.count(value), status);
   }
   Count("removals_ignored", intake.removals_ignored, status);
+  Count("unproven_inputs", sources.intake.unproven().size(), status);
+  Count("unproven_dropped", sources.intake.unproven().dropped(), status);
   Count("rejections_suppressed", sources.rejections.suppressed(), status);
 }
 
@@ -151,6 +153,31 @@ void AddWaiting(const StatusSources& sources, v1::ServiceStatus* status) {
   AddNames("waiting_why", reasons, status);
 }
 
+/// What simulators have used up of their quotas, or nearly so.
+void AddQuotas(const StatusSources& sources, v1::ServiceStatus* status) {
+  constexpr double kNearlyUsedUp = 0.8;
+  const ShapeCounters shapes = sources.shapes.counters();
+  const std::pair<Resource, std::uint64_t> used_by_all[] = {
+      {Resource::kAgents, sources.detector.agents()},
+      {Resource::kShapes, shapes.places},
+      {Resource::kShapeBytes, shapes.bytes},
+      {Resource::kTreeBytes, shapes.tree_bytes}};
+  const SimulatorQuotas& quotas = sources.world.quotas();
+  std::vector<std::string> texts;
+  for (const auto& [id, simulator] : sources.world.simulators()) {
+    for (const auto& [resource, of_all] : used_by_all) {
+      const std::uint64_t limit = LimitOf(sources.config, resource);
+      const std::uint64_t used = quotas.Used(id, resource);
+      const std::uint64_t most =
+          used + quotas.RoomFor(id, resource, limit - std::min(limit, of_all));
+      if (used == 0 || static_cast<double>(used) < kNearlyUsedUp * static_cast<double>(most))
+        continue;
+      texts.push_back(fmt::format("{}: {} {} of {}", simulator.name(), Name(resource), used, most));
+    }
+  }
+  AddNames("quotas", texts, status);
+}
+
 /// Simulators that an operator removed and that have not come back.
 void AddEvicted(const World& world, v1::ServiceStatus* status) {
   std::vector<std::string> names;
@@ -195,6 +222,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   }
   AddWaiting(sources, &status);
   AddEvicted(sources.world, &status);
+  AddQuotas(sources, &status);
   for (const v1::KeyValue& extension : sources.extensions) *status.add_extensions() = extension;
   return status;
 }

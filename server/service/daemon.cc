@@ -89,8 +89,8 @@ class Daemon::Implementation {
         shape_builder_(parts.shape_builder
                            ? std::move(parts.shape_builder)
                            : std::make_unique<InlineShapeBuilder>(BuildOptionsOf(config_))),
-        shapes_(config_, shape_builder_.get()),
         world_(config_, parts.claim.roster),
+        shapes_(config_, shape_builder_.get(), &world_.quotas()),
         detector_(OptionsOf(config_)),
         rejections_(config_.rejections_per_second_max(), &world_),
         intake_(config_, claim_.instance(), &world_, &detector_, &rejections_, &shapes_),
@@ -485,8 +485,8 @@ class Daemon::Implementation {
   std::string state_failure_;  ///< Empty: what must be kept is kept.
   ServiceClaim claim_;
   const std::unique_ptr<ShapeBuilder> shape_builder_;
-  ShapeStore shapes_;
   World world_;
+  ShapeStore shapes_;
   detection::Detector detector_;
   detection::DetectorCounters past_;  ///< Of the epochs that are over.
   Rejections rejections_;

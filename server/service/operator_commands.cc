@@ -88,7 +88,7 @@ std::string OperatorCommands::RestartTime() {
 std::string OperatorCommands::KnownNames() const {
   std::vector<std::string> names = world_.silence().roster().missing();
   for (const auto& [id, simulator] : world_.simulators()) {
-    if (!simulator.has_left() && !simulator.name().empty()) names.push_back(simulator.name());
+    if (!simulator.has_left()) names.push_back(simulator.name());
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());

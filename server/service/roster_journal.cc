@@ -9,7 +9,7 @@ namespace {
 
 /// Whether a restarted service must wait for it.
 bool IsInEpoch(const Simulator& simulator) {
-  return simulator.time().clock().has_value() && !simulator.has_left() && !simulator.name().empty();
+  return simulator.time().clock().has_value() && !simulator.has_left();
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ BuiltShape Refine(const std::string& hash, const shape::Shape& coarse,
   return built;
 }
 
-void InlineShapeBuilder::Start(const std::string& hash, std::string bytes) {
+void InlineShapeBuilder::Start(const std::string& hash, std::string bytes, std::uint64_t) {
   started_[hash] = {.bytes = std::move(bytes), .coarse = nullptr};
   finished_.push_back({hash});
 }

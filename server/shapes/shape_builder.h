@@ -94,9 +94,9 @@ class ShapeBuilder {
  public:
   virtual ~ShapeBuilder() = default;
 
-  /// Begins to build. Requires that the bytes have this hash, and that it is not started already,
-  /// or was forgotten since.
-  virtual void Start(const std::string& hash, std::string bytes) = 0;
+  /// Begins to build for a simulator, which has its turn among the others. Requires that the bytes
+  /// have this hash, and that it is not started already, or was forgotten since.
+  virtual void Start(const std::string& hash, std::string bytes, std::uint64_t simulator) = 0;
 
   /// Whether TakeFinished() would return any.
   virtual bool has_finished() const = 0;
@@ -123,7 +123,7 @@ class InlineShapeBuilder final : public ShapeBuilder {
  public:
   explicit InlineShapeBuilder(BuildOptions options) : options_(std::move(options)) {}
 
-  void Start(const std::string& hash, std::string bytes) override;
+  void Start(const std::string& hash, std::string bytes, std::uint64_t simulator) override;
   bool has_finished() const override { return !finished_.empty(); }
   std::vector<ReadyTree> TakeFinished() override;
   BuiltShape Await(const ReadyTree& tree) override;

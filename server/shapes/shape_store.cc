@@ -46,13 +46,48 @@ std::string ShortHash(const std::string& hash) {
   return text;
 }
 
-ShapeStore::ShapeStore(const v1::Config& config, ShapeBuilder* builder)
+ShapeStore::ShapeStore(const v1::Config& config, ShapeBuilder* builder, SimulatorQuotas* quotas)
     : triangles_max_(config.shape_triangles_max()),
       shapes_max_(config.shapes_max()),
       bytes_max_(config.shape_bytes_max()),
-      builder_(*builder) {}
+      tree_bytes_max_(config.tree_bytes_max()),
+      builder_(*builder),
+      quotas_(*quotas) {}
 
-bool ShapeStore::HasRoomFor(std::uint64_t bytes) const { return bytes_ + bytes <= bytes_max_; }
+bool ShapeStore::HasRoomFor(std::uint64_t simulator, std::uint64_t bytes) const {
+  return bytes <= quotas_.RoomFor(simulator, Resource::kShapeBytes, bytes_max_ - bytes_);
+}
+
+/// Of several owners one that has room is enough.
+bool ShapeStore::HasRoomForTree(const Known& known, std::uint64_t tree_bytes) const {
+  const std::uint64_t before = known.shape ? TreeBytesOf(*known.shape) : 0;
+  const std::uint64_t free = tree_bytes_max_ - counters_.tree_bytes;
+  if (known.owners.empty()) return tree_bytes <= free + before;
+  return std::any_of(known.owners.begin(), known.owners.end(), [&](const auto& owner) {
+    return tree_bytes <= quotas_.RoomFor(owner.first, Resource::kTreeBytes, free) + before;
+  });
+}
+
+void ShapeStore::SetOwner(std::uint64_t simulator, const PartSet& parts, Known* known) {
+  if (!known->owners.emplace(simulator, parts).second) return;
+  quotas_.Take(simulator, Resource::kShapes, 1);
+  quotas_.Take(simulator, Resource::kShapeBytes, known->bytes);
+  if (known->shape) quotas_.Take(simulator, Resource::kTreeBytes, TreeBytesOf(*known->shape));
+}
+
+void ShapeStore::RemoveOwner(std::uint64_t simulator, Known* known) {
+  if (known->owners.erase(simulator) == 0) return;
+  quotas_.GiveBack(simulator, Resource::kShapes, 1);
+  quotas_.GiveBack(simulator, Resource::kShapeBytes, known->bytes);
+  if (known->shape) quotas_.GiveBack(simulator, Resource::kTreeBytes, TreeBytesOf(*known->shape));
+}
+
+/// What is gathered for the simulator has grown or shrunk.
+void ShapeStore::SetGathered(std::uint64_t simulator, std::uint64_t before, std::uint64_t after) {
+  bytes_ = bytes_ - before + after;
+  quotas_.Take(simulator, Resource::kShapeBytes, after);
+  quotas_.GiveBack(simulator, Resource::kShapeBytes, before);
+}
 
 bool ShapeStore::Holds(std::uint64_t simulator, const std::string& hash) const {
   if (gatherings_.contains({hash, simulator})) return true;
@@ -89,8 +124,8 @@ std::optional<Refusal> ShapeStore::TakeKnown(const v1::ShapePart& part, Known* k
         part, "total_bytes",
         fmt::format("{}; the shape of this hash has {}", part.total_bytes(), known->bytes));
   }
-  const PartSet none(ShapeParts(known->bytes));
-  known->owners.try_emplace(part.simulator_id(), none).first->second.Insert(part.part());
+  SetOwner(part.simulator_id(), PartSet(ShapeParts(known->bytes)), known);
+  known->owners.at(part.simulator_id()).Insert(part.part());
   holders_.insert(part.simulator_id());
   return std::nullopt;
 }
@@ -109,7 +144,7 @@ std::optional<Refusal> ShapeStore::TakeUnknown(const v1::ShapePart& part) {
   }
   ShapeGathering& gathering = found->second;
   if (auto refusal = Add(part, &gathering)) {
-    Refuse(&gathering);
+    Refuse(part.simulator_id(), &gathering);
     // Counted, so that the same part begins another attempt when it comes again.
     if (gathering.total_bytes() == part.total_bytes()) gathering.Add(part);
     return refusal;
@@ -121,11 +156,14 @@ std::optional<Refusal> ShapeStore::TakeUnknown(const v1::ShapePart& part) {
 /// refused, so that its other parts are not refused one by one.
 std::optional<Refusal> ShapeStore::Begin(const v1::ShapePart& part) {
   const std::uint64_t bytes_max = std::min(bytes_max_, ShapeBytesMax(triangles_max_));
-  if (shapes_.size() + gatherings_.size() >= shapes_max_) {
+  const std::uint64_t free =
+      shapes_max_ - std::min<std::uint64_t>(shapes_max_, shapes_.size() + gatherings_.size());
+  if (quotas_.RoomFor(part.simulator_id(), Resource::kShapes, free) == 0) {
     ++counters_.refused;
-    return BadShape(
-        part, "content_hash",
-        fmt::format("all places are taken; allowed: {} shapes (shapes_max)", shapes_max_));
+    return BadShape(part, "content_hash",
+                    fmt::format("all places are taken; allowed: {} shapes (shapes_max), less what "
+                                "is guaranteed to other simulators",
+                                shapes_max_));
   }
   std::optional<Refusal> refusal;
   if (part.total_bytes() > bytes_max) {
@@ -142,8 +180,9 @@ std::optional<Refusal> ShapeStore::Begin(const v1::ShapePart& part) {
   holders_.insert(part.simulator_id());
   const Key key(part.content_hash(), part.simulator_id());
   ShapeGathering& gathering = gatherings_.emplace(key, part.total_bytes()).first->second;
+  quotas_.Take(part.simulator_id(), Resource::kShapes, 1);
   if (refusal) {
-    Refuse(&gathering);
+    Refuse(part.simulator_id(), &gathering);
     gathering.Add(part);
   }
   return refusal;
@@ -157,15 +196,15 @@ std::optional<Refusal> ShapeStore::Add(const v1::ShapePart& part, ShapeGathering
         fmt::format("{}; other parts of it say {}", part.total_bytes(), gathering->total_bytes()));
   }
   if (!gathering->refused() && !gathering->Contains(part.part()) &&
-      !HasRoomFor(part.bytes().size())) {
+      !HasRoomFor(part.simulator_id(), part.bytes().size())) {
     return BadShape(part, "bytes",
                     fmt::format("no room for part {}; allowed: {} bytes of all shapes together "
-                                "(shape_bytes_max)",
+                                "(shape_bytes_max), less what is guaranteed to other simulators",
                                 part.part(), bytes_max_));
   }
   const std::uint64_t before = gathering->bytes();
   const bool agrees = gathering->Add(part);
-  bytes_ += gathering->bytes() - before;
+  SetGathered(part.simulator_id(), before, gathering->bytes());
   if (agrees) return std::nullopt;
   return BadShape(part, "bytes", fmt::format("part {} came again with other bytes", part.part()));
 }
@@ -174,7 +213,7 @@ std::optional<Refusal> ShapeStore::Add(const v1::ShapePart& part, ShapeGathering
 std::optional<Refusal> ShapeStore::Complete(const v1::ShapePart& part, ShapeGathering* gathering) {
   const std::string digest = gathering->Digest();
   if (digest != part.content_hash()) {
-    Refuse(gathering);
+    Refuse(part.simulator_id(), gathering);
     return BadShape(part, "content_hash",
                     fmt::format("its {} bytes have another SHA-256, {}...",
                                 gathering->total_bytes(), ShortHash(digest)));
@@ -182,12 +221,15 @@ std::optional<Refusal> ShapeStore::Complete(const v1::ShapePart& part, ShapeGath
   const std::string& hash = part.content_hash();
   Known& known = shapes_[hash];
   known.bytes = gathering->total_bytes();
-  builder_.Start(hash, gathering->TakeBytes());
+  bytes_ += known.bytes;
+  const std::uint64_t gathered = gathering->bytes();
+  builder_.Start(hash, gathering->TakeBytes(), part.simulator_id());
+  SetGathered(part.simulator_id(), gathered, 0);
   auto next = gatherings_.lower_bound({hash, 0});
   while (next != gatherings_.end() && next->first.first == hash) {
     const auto writer = next++;
     if (!writer->second.refused()) {
-      known.owners.emplace(writer->first.second, writer->second.present());
+      SetOwner(writer->first.second, writer->second.present(), &known);
     } else {
       numbers_.Erase(writer->first.second, hash);
     }
@@ -196,14 +238,16 @@ std::optional<Refusal> ShapeStore::Complete(const v1::ShapePart& part, ShapeGath
   return std::nullopt;
 }
 
-void ShapeStore::Refuse(ShapeGathering* gathering) {
+void ShapeStore::Refuse(std::uint64_t simulator, ShapeGathering* gathering) {
   ++counters_.refused;
-  bytes_ -= gathering->bytes();
+  SetGathered(simulator, gathering->bytes(), 0);
   gathering->Refuse();
 }
 
 void ShapeStore::Forget(Gatherings::iterator gathering) {
-  bytes_ -= gathering->second.bytes();
+  const std::uint64_t simulator = gathering->first.second;
+  SetGathered(simulator, gathering->second.bytes(), 0);
+  quotas_.GiveBack(simulator, Resource::kShapes, 1);
   gatherings_.erase(gathering);
 }
 
@@ -229,7 +273,7 @@ void ShapeStore::DisposeOf(std::uint64_t simulator, const std::string& hash, std
   if (owner == known->second.owners.end()) return;
   owner->second.Erase(part);
   if (owner->second.count() > 0) return;
-  known->second.owners.erase(owner);
+  RemoveOwner(simulator, &known->second);
   FreeIfUnwanted(hash);
 }
 
@@ -242,7 +286,9 @@ void ShapeStore::Release(std::uint64_t simulator) {
   }
   for (auto next = shapes_.begin(); next != shapes_.end();) {
     const auto known = next++;
-    if (known->second.owners.erase(simulator) == 1) FreeIfUnwanted(std::string(known->first));
+    if (!known->second.owners.contains(simulator)) continue;
+    RemoveOwner(simulator, &known->second);
+    FreeIfUnwanted(std::string(known->first));
   }
 }
 
@@ -266,7 +312,13 @@ void ShapeStore::FreeIfUnwanted(const std::string& hash) {
 
 /// Replaces the shape, null for none, and keeps the counters.
 void ShapeStore::SetShape(std::shared_ptr<const shape::Shape> shape, bool coarse, Known* known) {
+  const auto for_each_owner = [this, known](auto change) {
+    for (const auto& [owner, parts] : known->owners) {
+      (quotas_.*change)(owner, Resource::kTreeBytes, TreeBytesOf(*known->shape));
+    }
+  };
   if (known->shape) {
+    for_each_owner(&SimulatorQuotas::GiveBack);
     --counters_.visible;
     counters_.coarse -= known->coarse;
     counters_.tree_nodes -= known->shape->tree().nodes.size();
@@ -275,6 +327,7 @@ void ShapeStore::SetShape(std::shared_ptr<const shape::Shape> shape, bool coarse
   known->shape = std::move(shape);
   known->coarse = coarse;
   if (known->shape) {
+    for_each_owner(&SimulatorQuotas::Take);
     ++counters_.visible;
     counters_.coarse += known->coarse;
     counters_.tree_nodes += known->shape->tree().nodes.size();
@@ -292,15 +345,36 @@ std::optional<ReadyShape> ShapeStore::MakeVisible(const ReadyTree& tree) {
   if (const auto users = users_.find(tree.hash); users != users_.end()) {
     ready.users.assign(users->second.begin(), users->second.end());
   }
+  LimitTree(known->second, &ready);
   if (ready.built.shape) {
     SetShape(ready.built.shape, ready.built.coarse, &known->second);
   } else {
     ++counters_.refused;
     bytes_ -= known->second.bytes;
-    for (const std::uint64_t owner : ready.owners) numbers_.Erase(owner, tree.hash);
+    builder_.Forget(tree.hash);
+    for (const std::uint64_t owner : ready.owners) {
+      RemoveOwner(owner, &known->second);
+      numbers_.Erase(owner, tree.hash);
+    }
     shapes_.erase(known);
   }
   return ready;
+}
+
+/// A tree for which there is no room: the coarse one stays, or the shape is refused.
+void ShapeStore::LimitTree(const Known& known, ReadyShape* ready) const {
+  BuiltShape& built = ready->built;
+  if (!built.shape || HasRoomForTree(known, TreeBytesOf(*built.shape))) return;
+  const std::uint64_t bytes = TreeBytesOf(*built.shape);
+  built.shape = known.shape;
+  built.coarse = false;
+  ready->stays_coarse = known.shape != nullptr;
+  if (!known.shape) {
+    built.refusal = fmt::format(
+        "no room for its tree of {} bytes; allowed: {} of all shapes "
+        "together (tree_bytes_max), less what is guaranteed to others",
+        bytes, tree_bytes_max_);
+  }
 }
 
 std::shared_ptr<const shape::Shape> ShapeStore::Find(const std::string& hash) const {
@@ -323,6 +397,7 @@ ShapeProgress ShapeStore::ProgressOf(std::uint64_t simulator, const std::string&
 ShapeCounters ShapeStore::counters() const {
   ShapeCounters counters = counters_;
   counters.gathering = gatherings_.size();
+  counters.places = shapes_.size() + gatherings_.size();
   counters.bytes = bytes_;
   counters.builder = builder_.counters();
   return counters;

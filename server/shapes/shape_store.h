@@ -12,6 +12,7 @@
 
 #include "idl/config.pb.h"
 #include "server/codec/refusal.h"
+#include "server/quotas/simulator_quotas.h"
 #include "server/shapes/shape_builder.h"
 #include "server/shapes/shape_gathering.h"
 #include "server/shapes/shape_numbers.h"
@@ -25,6 +26,7 @@ using ShapeUser = std::pair<std::uint64_t, std::uint32_t>;
 struct ReadyShape {
   BuiltShape built;
   bool refined = false;               ///< It was visible before, with its coarse tree.
+  bool stays_coarse = false;          ///< There is no room for its finer tree.
   std::vector<std::uint64_t> owners;  ///< Simulators that wrote it.
   std::vector<ShapeUser> users;
 };
@@ -42,6 +44,7 @@ struct ShapeCounters {
   std::uint64_t visible = 0;
   std::uint64_t coarse = 0;     ///< Of the visible ones: the wanted tree is not ready.
   std::uint64_t gathering = 0;  ///< Not whole yet.
+  std::uint64_t places = 0;     ///< As shapes_max counts them.
   std::uint64_t bytes = 0;      ///< As shape_bytes_max counts them.
   std::uint64_t tree_nodes = 0;
   std::uint64_t tree_bytes = 0;  ///< Of trees, in both layouts, and of solids; beside `bytes`.
@@ -63,12 +66,14 @@ struct ShapeCounters {
 /// build that runs is forgotten.
 ///
 /// **Memory.** `shape_bytes_max` bounds the bytes of parts and meshes: for a million triangles some
-/// 25 MB of parts and 25 MB of mesh. Trees come on top, some hundred MB for a million triangles: a
-/// tree has at most 2^20 balls, beyond that its leaves have more triangles. One thread.
+/// 25 MB of parts and 25 MB of mesh. `tree_bytes_max` bounds the trees, some hundred MB for a
+/// million triangles: a tree has at most 2^20 balls, beyond that its leaves have more triangles.
+/// Each simulator has its part of these limits (SimulatorQuotas); a shape of several simulators
+/// counts for each of them. Nothing that is in use is freed to make room. One thread.
 class ShapeStore {
  public:
-  /// `builder` outlives this.
-  ShapeStore(const v1::Config& config, ShapeBuilder* builder);
+  /// `builder` and `quotas` outlive this.
+  ShapeStore(const v1::Config& config, ShapeBuilder* builder, SimulatorQuotas* quotas);
 
   /// A part from the simulator that owns its id.
   std::optional<Refusal> Take(const v1::ShapePart& part);
@@ -121,7 +126,11 @@ class ShapeStore {
   using Key = std::pair<std::string, std::uint64_t>;  ///< Hash, simulator.
   using Gatherings = std::map<Key, ShapeGathering>;
 
-  bool HasRoomFor(std::uint64_t bytes) const;
+  bool HasRoomFor(std::uint64_t simulator, std::uint64_t bytes) const;
+  bool HasRoomForTree(const Known& known, std::uint64_t tree_bytes) const;
+  void SetOwner(std::uint64_t simulator, const PartSet& parts, Known* known);
+  void RemoveOwner(std::uint64_t simulator, Known* known);
+  void SetGathered(std::uint64_t simulator, std::uint64_t before, std::uint64_t after);
   /// Whether the simulator has written any of the shape that is still here.
   bool Holds(std::uint64_t simulator, const std::string& hash) const;
   std::optional<Refusal> CheckNumber(const v1::ShapePart& part) const;
@@ -131,15 +140,18 @@ class ShapeStore {
   std::optional<Refusal> Begin(const v1::ShapePart& part);
   std::optional<Refusal> Add(const v1::ShapePart& part, ShapeGathering* gathering);
   std::optional<Refusal> Complete(const v1::ShapePart& part, ShapeGathering* gathering);
-  void Refuse(ShapeGathering* gathering);
+  void Refuse(std::uint64_t simulator, ShapeGathering* gathering);
   void Forget(Gatherings::iterator gathering);
+  void LimitTree(const Known& known, ReadyShape* ready) const;
   void FreeIfUnwanted(const std::string& hash);
   void SetShape(std::shared_ptr<const shape::Shape> shape, bool coarse, Known* known);
 
   const std::uint64_t triangles_max_;
   const std::uint64_t shapes_max_;
   const std::uint64_t bytes_max_;
+  const std::uint64_t tree_bytes_max_;
   ShapeBuilder& builder_;
+  SimulatorQuotas& quotas_;
   std::map<std::string, Known> shapes_;  ///< By hash; verified.
   Gatherings gatherings_;
   std::map<std::string, std::set<ShapeUser>> users_;  ///< By hash, known or not.

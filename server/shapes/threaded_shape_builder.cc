@@ -24,6 +24,9 @@ constexpr std::chrono::milliseconds kEndPatience{200};
 /// A shape of so many bytes, some 10,000 triangles, is built within a second or two.
 constexpr std::size_t kSmallBytes = 250'000;
 
+/// Simulators whose last turn is remembered: as many as a world can have.
+constexpr std::size_t kTurnsMax = 1024;
+
 constexpr std::size_t kAnyBytes = std::numeric_limits<std::size_t>::max();
 
 }  // namespace
@@ -36,6 +39,7 @@ struct ThreadedShapeBuilder::Limits {
 struct ThreadedShapeBuilder::Shared {
   struct Job {
     std::string hash;
+    std::uint64_t simulator = 0;
     std::string bytes;  ///< Until it is begun.
     std::size_t size = 0;
     std::shared_ptr<const shape::Shape> refining;  ///< With the coarse tree, from then on.
@@ -50,6 +54,8 @@ struct ThreadedShapeBuilder::Shared {
   std::function<void()> on_finished;
   std::map<std::string, std::shared_ptr<Job>> jobs;  ///< Neither forgotten nor handed out.
   std::list<std::shared_ptr<Job>> waiting;           ///< In the order of their start.
+  std::map<std::uint64_t, std::uint64_t> turns;      ///< By simulator: its last turn.
+  std::uint64_t turn = 0;
   std::vector<ReadyTree> finished;
   std::uint64_t microseconds = 0;
   bool stopped = false;
@@ -62,13 +68,15 @@ struct ThreadedShapeBuilder::Shared {
     return found != jobs.end() && found->second.get() == &job;
   }
 
-  /// Takes, of the jobs within the limits, the smallest one whose first tree waits, else the
-  /// smallest one that is to be refined; of equal ones the first. Null: there is none.
+  /// Simulators take turns: of the jobs within the limits, takes one of the simulator whose last
+  /// turn was the longest ago. Of its jobs it takes the smallest one whose first tree waits, else
+  /// the smallest one that is to be refined; of equal ones the first. Null: there is none.
   std::shared_ptr<Job> TakeWaiting(const Limits& limits) {
-    const auto order = [&limits](const Job& job) {
+    const auto order = [this, &limits](const Job& job) {
       const bool refine = job.refining != nullptr;
       const bool taken = job.size <= limits.bytes_max && (!refine || limits.refines);
-      return std::tuple(!taken, refine, job.size);
+      const auto last = turns.find(job.simulator);
+      return std::tuple(!taken, last == turns.end() ? 0 : last->second, refine, job.size);
     };
     const auto next =
         std::min_element(waiting.begin(), waiting.end(),
@@ -76,7 +84,15 @@ struct ThreadedShapeBuilder::Shared {
     if (next == waiting.end() || std::get<0>(order(**next))) return nullptr;
     std::shared_ptr<Job> job = std::move(*next);
     waiting.erase(next);
+    CountTurn(job->simulator);
     return job;
+  }
+
+  void CountTurn(std::uint64_t simulator) {
+    turns[simulator] = ++turn;
+    if (turns.size() <= kTurnsMax) return;
+    turns.erase(std::min_element(turns.begin(), turns.end(),
+                                 [](const auto& a, const auto& b) { return a.second < b.second; }));
   }
 
   void Remove(const std::string& hash) {
@@ -168,9 +184,11 @@ void ThreadedShapeBuilder::BuildUntilStopped(Shared* shared, const Limits& limit
   }
 }
 
-void ThreadedShapeBuilder::Start(const std::string& hash, std::string bytes) {
+void ThreadedShapeBuilder::Start(const std::string& hash, std::string bytes,
+                                 std::uint64_t simulator) {
   auto job = std::make_shared<Shared::Job>();
   job->hash = hash;
+  job->simulator = simulator;
   job->bytes = std::move(bytes);
   job->size = job->bytes.size();
   const std::lock_guard lock(shared_->mutex);

@@ -11,9 +11,11 @@
 
 namespace collision::server {
 
-/// Three workers. Each takes first trees before those that refine them, and small shapes before
-/// large ones. One builds everything, one only first trees, one only small shapes: no landscape
-/// waits for its first tree while another one is refined, and no ship waits for a landscape.
+/// Three workers. Simulators take turns, so that the shapes of one do not keep those of others
+/// waiting. Of one simulator each worker takes first trees before those that refine them, and small
+/// shapes before large ones. One builds everything, one only first trees, one only small shapes: no
+/// landscape waits for its first tree while another one is refined, and no ship waits for a
+/// landscape.
 ///
 /// A worker that throws ends; what it threw reaches the daemon's thread as ShapeBuilder says.
 class ThreadedShapeBuilder final : public ShapeBuilder {
@@ -29,7 +31,7 @@ class ThreadedShapeBuilder final : public ShapeBuilder {
   ThreadedShapeBuilder(const ThreadedShapeBuilder&) = delete;
   ThreadedShapeBuilder& operator=(const ThreadedShapeBuilder&) = delete;
 
-  void Start(const std::string& hash, std::string bytes) override;
+  void Start(const std::string& hash, std::string bytes, std::uint64_t simulator) override;
   bool has_finished() const override;
   std::vector<ReadyTree> TakeFinished() override;
   BuiltShape Await(const ReadyTree& tree) override;

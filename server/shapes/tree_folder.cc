@@ -4,9 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
@@ -60,11 +60,16 @@ struct Entry {
   std::int64_t used_ns = 0;
   std::string name;
   std::uint64_t bytes = 0;
-
-  bool operator<(const Entry& other) const {
-    return std::tie(used_ns, name) < std::tie(other.used_ns, other.name);
-  }
 };
+
+/// False: there is no regular file.
+bool Look(const std::string& path, Entry* entry) {
+  struct stat status = {};
+  if (lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;
+  entry->bytes = static_cast<std::uint64_t>(status.st_size);
+  entry->used_ns = status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec;
+  return true;
+}
 
 /// Regular files of the folder whose name ends so. What vanishes meanwhile is not there.
 std::vector<Entry> EntriesOf(const std::string& folder, const std::string& ending) {
@@ -74,11 +79,7 @@ std::vector<Entry> EntriesOf(const std::string& folder, const std::string& endin
        next.increment(error)) {
     Entry entry{.name = next->path().filename().string()};
     if (!entry.name.ends_with(ending)) continue;
-    struct stat status = {};
-    if (lstat(next->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
-    entry.bytes = static_cast<std::uint64_t>(status.st_size);
-    entry.used_ns = status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec;
-    entries.push_back(std::move(entry));
+    if (Look(next->path(), &entry)) entries.push_back(std::move(entry));
   }
   return entries;
 }
@@ -91,14 +92,15 @@ std::int64_t NowNs() {
 
 }  // namespace
 
-TreeFolder::TreeFolder(std::string path, std::uint64_t bytes_max)
-    : path_(std::move(path)), bytes_max_(bytes_max) {
+TreeFolder::TreeFolder(std::string path, std::uint64_t bytes_max, std::size_t files_max)
+    : path_(std::move(path)), bytes_max_(bytes_max), files_max_(files_max) {
   std::error_code error;
   fs::create_directories(path_, error);
   if (!error) fs::directory_iterator(path_, error);
   if (error) throw std::runtime_error(path_ + ": " + error.message());
   RemoveLeftovers();
-  MakeRoom(0);
+  List();
+  MakeRoom(std::nullopt);
 }
 
 void TreeFolder::RemoveLeftovers() const {
@@ -142,6 +144,8 @@ bool TreeFolder::Write(const std::string& name, const std::string& bytes, std::s
              " (tree_cache_mb)";
     return false;
   }
+  if (written_ % kWritesPerListing == kWritesPerListing - 1) List();
+  Forget(name);
   MakeRoom(bytes.size());
   const std::string path = path_ + "/" + name + kEnding;
   const std::string aside = path_ + "/." + name + "." + std::to_string(getpid()) + "." +
@@ -149,26 +153,58 @@ bool TreeFolder::Write(const std::string& name, const std::string& bytes, std::s
   File file(open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0640));
   const bool is_placed = file.is_open() && WriteAll(file.get(), bytes) == 0 && file.Close() &&
                          rename(aside.c_str(), path.c_str()) == 0;
-  if (is_placed) {
-    bytes_ += bytes.size();
-    return true;
-  }
+  Entry entry;
+  if (Look(path, &entry)) Note(name, entry.bytes, entry.used_ns);
+  if (is_placed) return true;
   *fault = "cannot be written: " + CauseOf(errno);
   unlink(aside.c_str());
   return false;
 }
 
-void TreeFolder::MakeRoom(std::uint64_t bytes) {
-  std::vector<Entry> entries = EntriesOf(path_, kEnding);
-  std::sort(entries.begin(), entries.end());
+void TreeFolder::List() {
+  files_.clear();
+  by_use_.clear();
   bytes_ = 0;
-  for (const Entry& entry : entries) bytes_ += entry.bytes;
-  for (const Entry& entry : entries) {
-    if (bytes_ + bytes <= bytes_max_) break;
-    if (unlink((path_ + "/" + entry.name).c_str()) != 0) continue;
-    bytes_ -= entry.bytes;
-    ++removed_;
+  for (const Entry& entry : EntriesOf(path_, kEnding)) {
+    Note(entry.name.substr(0, entry.name.size() - std::strlen(kEnding)), entry.bytes,
+         entry.used_ns);
   }
+}
+
+void TreeFolder::Note(const std::string& name, std::uint64_t bytes, std::int64_t used_ns) {
+  Forget(name);
+  files_[name] = {bytes, used_ns};
+  by_use_.emplace(used_ns, name);
+  bytes_ += bytes;
+}
+
+void TreeFolder::Forget(const std::string& name) {
+  const auto file = files_.find(name);
+  if (file == files_.end()) return;
+  const auto [bytes, used_ns] = file->second;
+  by_use_.erase({used_ns, name});
+  bytes_ -= bytes;
+  files_.erase(file);
+}
+
+void TreeFolder::MakeRoom(std::optional<std::uint64_t> bytes) {
+  const std::size_t files = bytes ? 1 : 0;
+  while (!by_use_.empty() &&
+         (bytes_ + bytes.value_or(0) > bytes_max_ || files_.size() + files > files_max_)) {
+    RemoveOrNote(std::string(by_use_.begin()->second));
+  }
+}
+
+/// A file that was used since it was noted stays for now.
+void TreeFolder::RemoveOrNote(const std::string& name) {
+  const std::string path = path_ + "/" + name + kEnding;
+  Entry entry;
+  const bool there = Look(path, &entry);
+  if (there && entry.used_ns > files_.at(name).second) {
+    return Note(name, entry.bytes, entry.used_ns);
+  }
+  if (there && unlink(path.c_str()) == 0) ++removed_;
+  Forget(name);
 }
 
 }  // namespace collision::server

@@ -14,6 +14,23 @@ std::uint64_t Rejections::CountOne(const Refusal& refusal) {
   return simulator != nullptr ? simulator->CountRefusal() : ++of_unknown_;
 }
 
+bool Rejections::MayTell(std::uint64_t simulator_id) {
+  SimulatorQuotas& quotas = world_.quotas();
+  const std::int64_t second = world_.monotonic_ns() / 1'000'000'000;
+  if (std::exchange(second_, second) != second) {
+    for (const auto& [id, told] : std::exchange(told_to_, {})) {
+      quotas.GiveBack(id, Resource::kRejections, told);
+    }
+    told_in_second_ = 0;
+  }
+  const std::uint64_t free = per_second_max_ - told_in_second_;
+  if (quotas.RoomFor(simulator_id, Resource::kRejections, free) == 0) return false;
+  quotas.Take(simulator_id, Resource::kRejections, 1);
+  ++told_to_[simulator_id];
+  ++told_in_second_;
+  return true;
+}
+
 void Rejections::Count(const Refusal& refusal) {
   CountOne(refusal);
   ++suppressed_;
@@ -25,18 +42,14 @@ void Rejections::Add(const Refusal& refusal) {
   const bool stands = simulator != nullptr && StandingRefusals::Stands(refusal.reason);
   if (stands) simulator->refusals().Add(refusal);
   const std::string& reason = v1::RejectionReason_Name(refusal.reason);
-  Log(spdlog::level::warn, "input refused",
-      fmt::format("{} simulator {:016x} \"{}\" run {} slot {} generation {}: {}: {}", reason,
-                  refusal.simulator_id, simulator ? simulator->name() : "", refusal.run,
-                  refusal.slot, refusal.generation, refusal.field, refusal.detail));
-  const std::int64_t second = world_.monotonic_ns() / 1'000'000'000;
-  if (second != second_) told_in_second_ = 0;
-  second_ = second;
-  if (told_in_second_ == per_second_max_) {
+  LogAbout(spdlog::level::warn, "input refused", simulator ? simulator->name() : "",
+           fmt::format("{} simulator {:016x} \"{}\" run {} slot {} generation {}: {}: {}", reason,
+                       refusal.simulator_id, simulator ? simulator->name() : "", refusal.run,
+                       refusal.slot, refusal.generation, refusal.field, refusal.detail));
+  if (!MayTell(refusal.simulator_id)) {
     ++suppressed_;
     return;
   }
-  ++told_in_second_;
   v1::Rejection& wire = pending_.emplace_back();
   wire.set_simulator_id(refusal.simulator_id);
   wire.set_now_ns(world_.now().nanoseconds());

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "server/codec/refusal.h"
@@ -12,8 +13,9 @@ namespace collision::server {
 
 /// Counts every refusal, per reason and per simulator, notes those that stand (StandingRefusals),
 /// and keeps the messages to the senders: at most `per_second_max` in one second of the monotonic
-/// clock, so that a broken simulator cannot flood the network. The log has at most one line about
-/// refusals per second. One thread.
+/// clock, so that a broken simulator cannot flood the network, and no more of one simulator than
+/// its quota, so that it does not silence what is told to others. The log has at most one line
+/// about the refusals of one simulator per second. One thread.
 class Rejections {
  public:
   /// `world` outlives this: it knows the simulators and the time.
@@ -36,6 +38,9 @@ class Rejections {
   std::uint64_t suppressed() const { return suppressed_; }
 
  private:
+  /// Whether one more may be told to this simulator in this second; it then counts as told.
+  bool MayTell(std::uint64_t simulator_id);
+
   /// The refusals of this simulator so far.
   std::uint64_t CountOne(const Refusal& refusal);
 
@@ -46,6 +51,7 @@ class Rejections {
   std::uint64_t suppressed_ = 0;
   std::int64_t second_ = -1;
   std::uint32_t told_in_second_ = 0;
+  std::map<std::uint64_t, std::uint64_t> told_to_;  ///< In this second, by simulator.
   std::vector<v1::Rejection> pending_;
 };
 

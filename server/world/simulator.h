@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "server/world/agent_table.h"
 #include "server/world/contenders.h"
@@ -20,17 +21,15 @@ namespace collision::server {
 /// and the marks of clearance samples that are to be published. One thread.
 class Simulator {
  public:
-  /// `sender`: the network's identity of the process that speaks for it.
-  Simulator(std::uint64_t id, std::uint64_t sender, std::uint32_t run)
-      : id_(id), sender_(sender), run_(run) {}
+  /// `sender`: the network's identity of the process that speaks for it. `id` is the hash of
+  /// `name`.
+  Simulator(std::uint64_t id, std::uint64_t sender, std::uint32_t run, std::string name)
+      : id_(id), sender_(sender), run_(run), name_(std::move(name)) {}
 
   std::uint64_t id() const { return id_; }
   std::uint64_t sender() const { return sender_; }
   std::uint32_t run() const { return run_; }
-  const std::string& name() const { return name_; }  ///< Empty: not proved yet.
-
-  /// A description or a clock, whose id is the hash of this name, has come from the sender.
-  void SetName(const std::string& name) { name_ = name; }
+  const std::string& name() const { return name_; }
 
   /// Of the program, as its messages say; 0: none said.
   std::uint32_t incarnation() const { return incarnation_; }
@@ -109,7 +108,7 @@ class Simulator {
   const std::uint64_t id_;
   std::uint64_t sender_;
   std::uint32_t run_;
-  std::string name_;
+  const std::string name_;
   bool alive_ = true;
   bool released_ = false;
   bool ended_ = false;

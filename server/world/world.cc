@@ -20,6 +20,8 @@ World::World(const v1::Config& config, const std::vector<JournalledSimulator>& r
       first_clock_max_(Instant::FromNanoseconds(ToNanoseconds(config.clock().first_clock_max_s()))),
       simulators_awaited_(config.clock().simulators_awaited()),
       simulators_max_(config.simulators_max()),
+      expected_(ExpectedIds(config)),
+      quotas_(config),
       silence_(config, roster),
       wall_time_(ToNanoseconds(config.clock().skew_max_s())),
       // Two clients' clocks may differ by twice the skew.
@@ -30,16 +32,26 @@ Simulator* World::Find(std::uint64_t id) {
   return found == simulators_.end() ? nullptr : &found->second;
 }
 
+/// A simulator whose name is in the configuration has a place, whether it is there or not.
+bool World::HasRoomFor(std::uint64_t id) const {
+  const auto absent = std::count_if(expected_.begin(), expected_.end(), [&](std::uint64_t one) {
+    return one != id && !simulators_.contains(one);
+  });
+  return simulators_.size() + static_cast<std::size_t>(absent) < simulators_max_;
+}
+
 /// In place of one that has left, if there is no room. Null: none has.
-Simulator* World::Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run) {
-  if (simulators_.size() >= simulators_max_) {
+Simulator* World::Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
+                      const std::string& name) {
+  while (!HasRoomFor(id)) {
     const auto left = std::find_if(simulators_.begin(), simulators_.end(), [](const auto& one) {
       return one.second.has_left() && one.second.contenders().empty();
     });
     if (left == simulators_.end()) return nullptr;
     simulators_.erase(left);
   }
-  return &simulators_.try_emplace(id, id, sender, run).first->second;
+  quotas_.Enter(id, name);
+  return &simulators_.try_emplace(id, id, sender, run, name).first->second;
 }
 
 Claim World::ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
@@ -52,31 +64,42 @@ Claim World::ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
     claim.detail = *refusal;
     return claim;
   }
-  if (claim.simulator == nullptr) claim.simulator = Add(id, sender, run);
-  if (claim.simulator == nullptr) {
-    claim.reason = v1::REJECTED_TOO_MANY_SIMULATORS;
-    claim.detail = "the world has " + std::to_string(simulators_.size()) +
-                   " simulators; allowed: at most " + std::to_string(simulators_max_);
-    return claim;
-  }
+  if (claim.simulator == nullptr) return ClaimForNew(id, sender, run, name);
   Simulator& simulator = *claim.simulator;
   const bool owns = simulator.sender() == sender;
-  const bool proves = name != nullptr && simulator.name().empty();
-  if (owns) {
-    claim.accepted = run >= simulator.run();
-    claim.new_run = run > simulator.run();
-    claim.reason = v1::REJECTED_OLD_RUN;
-  } else {
-    claim.accepted = claim.new_run = proves || (!simulator.alive() && run > simulator.run());
-  }
+  const bool succeeds = !owns && !simulator.alive() && run > simulator.run();
+  claim.unproven = succeeds && name == nullptr;
+  claim.accepted = owns ? run >= simulator.run() : succeeds && name != nullptr;
+  claim.new_run = claim.accepted && run > simulator.run();
+  if (owns) claim.reason = v1::REJECTED_OLD_RUN;
   if (!claim.accepted) {
     claim.detail = "run " + std::to_string(run) + "; in force: run " +
                    std::to_string(simulator.run()) + (owns ? "" : " of another sender") +
                    (simulator.alive() ? "" : ", gone; allowed: a higher run");
-  } else if (proves) {
-    simulator.SetName(*name);
   }
   return claim;
+}
+
+Claim World::ClaimForNew(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
+                         const std::string* name) {
+  if (name == nullptr) return {.unproven = true};
+  Claim claim{.simulator = Add(id, sender, run, *name)};
+  claim.accepted = claim.simulator != nullptr;
+  if (claim.accepted) return claim;
+  claim.reason = v1::REJECTED_TOO_MANY_SIMULATORS;
+  claim.detail = "the world has " + std::to_string(simulators_.size()) +
+                 " simulators; allowed: at most " + std::to_string(simulators_max_);
+  return claim;
+}
+
+void World::UpdateQuotas() {
+  for (const auto& [id, simulator] : simulators_) {
+    if (!simulator.has_left()) quotas_.Enter(id, simulator.name());
+  }
+  quotas_.Keep([this](std::uint64_t id) {
+    const auto found = simulators_.find(id);
+    return found != simulators_.end() && !found->second.has_left();
+  });
 }
 
 std::optional<ClockStep> World::SetReading(const ClockReading& reading) {

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "idl/config.pb.h"
 #include "server/bus/clock.h"
 #include "server/codec/codec.h"
+#include "server/quotas/simulator_quotas.h"
 #include "server/world/silence.h"
 #include "server/world/silence/ended_runs.h"
 #include "server/world/simulator.h"
@@ -25,9 +27,10 @@ inline constexpr std::int64_t kWakingTime = 1'000'000'000;
 
 /// Whether a sender may speak for a simulator id.
 struct Claim {
-  Simulator* simulator = nullptr;  ///< The one that the id names; null: unknown, and no room.
+  Simulator* simulator = nullptr;  ///< The one that the id names; null: there is none.
   bool accepted = false;
-  bool new_run = false;  ///< Accepted, and a run begins: remove its agents, then StartRun().
+  bool unproven = false;  ///< Neither accepted nor refused: it would be, had it a name.
+  bool new_run = false;   ///< Accepted, and a run begins: remove its agents, then StartRun().
   v1::RejectionReason reason = v1::REJECTED_ID_OWNED;  ///< Unless accepted.
   std::string detail = {};
 };
@@ -36,10 +39,10 @@ struct Claim {
 /// log. One thread.
 ///
 /// **Ownership.** An id belongs to the first sender that names itself, in a description or a clock;
-/// states alone prove nothing. Another sender is refused until the owner is gone *and* the other
-/// one's run is higher. A successor that writes earlier is refused (Contenders) and writes again
-/// when the simulator's report says that the owner is gone. A simulator has left when its process
-/// is gone and it has no agents; it makes room for another one.
+/// states alone prove nothing and make no simulator. Another sender is refused until the owner is
+/// gone *and* the other one's run is higher. A successor that writes earlier is refused
+/// (Contenders) and writes again when the simulator's report says that the owner is gone. A
+/// simulator has left when its process is gone and it has no agents; it makes room for another one.
 ///
 /// **Now.** Simulated clock: it begins with the least first clock, once `simulators_awaited` have
 /// one, and goes on in rounds. All that hold time are granted the same time, and when each has told
@@ -66,13 +69,19 @@ class World {
   explicit World(const v1::Config& config, const std::vector<JournalledSimulator>& roster = {});
 
   /// `name`: as in a description or clock, already checked against the id; null for messages
-  /// without one. Only a named message proves ownership: it takes an id from a sender that never
-  /// named itself.
+  /// without one. Only a named message makes a simulator, or takes over the id of one that is gone.
   Claim ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                  const std::string* name);
 
   /// Null: unknown.
   Simulator* Find(std::uint64_t id);
+
+  /// What its simulators may have of the limits of the world. A simulator that has left is
+  /// guaranteed nothing: call UpdateQuotas() once a step, after the inputs.
+  SimulatorQuotas& quotas() { return quotas_; }
+  const SimulatorQuotas& quotas() const { return quotas_; }
+  void UpdateQuotas();
+
   std::map<std::uint64_t, Simulator>& simulators() { return simulators_; }
   const std::map<std::uint64_t, Simulator>& simulators() const { return simulators_; }
 
@@ -205,7 +214,11 @@ class World {
   void Validate() const;
 
  private:
-  Simulator* Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run);
+  bool HasRoomFor(std::uint64_t id) const;
+  Simulator* Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
+                 const std::string& name);
+  Claim ClaimForNew(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
+                    const std::string* name);
   Instant LatestAllowed(const Simulator& simulator) const;
   void BeginWallEpoch();
   Instant NewestClock() const;
@@ -218,8 +231,10 @@ class World {
   const Instant first_clock_max_;
   const std::size_t simulators_awaited_;
   const std::size_t simulators_max_;
+  const std::set<std::uint64_t> expected_;  ///< Ids whose names the configuration has.
 
   std::map<std::uint64_t, Simulator> simulators_;
+  SimulatorQuotas quotas_;
   Silence silence_;
   EndedRuns ended_runs_;
   std::uint32_t epoch_ = 1;

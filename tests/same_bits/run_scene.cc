@@ -32,8 +32,8 @@ class SteadyBuilder final : public ShapeBuilder {
  public:
   explicit SteadyBuilder(const BuildOptions& options) : threads_(options, [] {}) {}
 
-  void Start(const std::string& hash, std::string bytes) override {
-    threads_.Start(hash, std::move(bytes));
+  void Start(const std::string& hash, std::string bytes, std::uint64_t simulator) override {
+    threads_.Start(hash, std::move(bytes), simulator);
     started_.push_back({hash});
   }
   bool has_finished() const override { return !started_.empty(); }

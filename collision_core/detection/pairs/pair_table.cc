@@ -1,18 +1,38 @@
 #include "collision_core/detection/pairs/pair_table.h"
 
 #include <algorithm>
+#include <map>
 
 #include "collision_core/base/free_list.h"
 
 namespace collision::detection {
 
-void PairTable::AddAgent(AgentIndex agent) {
+void PairTable::AddAgent(AgentIndex agent, const OwnerId& owner) {
   if (!of_agent_.contains(agent)) {
     of_agent_.resize(agent.value() + 1);
     full_.resize(agent.value() + 1);
+    owner_of_.resize(agent.value() + 1);
   }
   CORE_CHECK(of_agent_[agent].empty(), "a new agent has no pairs", agent.value());
+  owner_of_[agent] = owners_.Enter(owner);
   UpdateFull(agent);
+}
+
+void PairTable::RemoveAgent(AgentIndex agent) {
+  CORE_CHECK(Of(agent).empty(), "an agent that leaves has no pairs", agent.value());
+  owners_.Leave(owner_of_[agent]);
+  owner_of_[agent] = nullptr;
+}
+
+void PairTable::SetShare(const OwnerId& owner, const Share& share) {
+  if (Owner* present = owners_.Find(owner)) owners_.SetShare(present, share);
+}
+
+template <typename Visitor>
+void PairTable::ForEachOwner(const PairRecord& pair, const Visitor& visit) const {
+  Owner *lower = owner_of_[pair.lower], *higher = owner_of_[pair.higher];
+  visit(lower);
+  if (higher != lower) visit(higher);
 }
 
 PairSlot PairTable::Add(const PairRecord& pair) {
@@ -30,6 +50,7 @@ PairSlot PairTable::Add(const PairRecord& pair) {
     pairs_[slot] = pair;
   }
   ++size_;
+  ForEachOwner(pair, [this](Owner* owner) { owners_.Take(owner, 1); });
   for (const AgentIndex agent : {pair.lower, pair.higher}) {
     of_agent_[agent].push_back(slot);
     UpdateFull(agent);
@@ -43,6 +64,7 @@ void PairTable::Remove(PairSlot slot) {
     std::erase(of_agent_[agent], slot);
     UpdateFull(agent);
   }
+  ForEachOwner(pair, [this](Owner* owner) { owners_.GiveBack(owner, 1); });
   pairs_[slot].reset();
   free_.push_back(slot);
   --size_;
@@ -51,7 +73,7 @@ void PairTable::Remove(PairSlot slot) {
 std::size_t PairTable::RoomFor(AgentIndex agent) const {
   const std::size_t taken = Of(agent).size();
   if (taken >= pairs_per_agent_max_) return 0;
-  return std::min(pairs_per_agent_max_ - taken, room());
+  return std::min<std::size_t>(pairs_per_agent_max_ - taken, OwnersRoom(agent));
 }
 
 void PairTable::UpdateFull(AgentIndex agent) {
@@ -72,14 +94,19 @@ void PairTable::ValidateAgent(AgentIndex agent) const {
 
 void PairTable::Validate() const {
   std::size_t held = 0, listed = 0;
+  std::map<const Owner*, std::uint64_t> of_owner;
   for (PairSlot slot; pairs_.contains(slot); slot = PairSlot(slot.value() + 1)) {
     if (!Contains(slot)) continue;
     ++held;
     const PairRecord& pair = (*this)[slot];
+    ForEachOwner(pair, [&of_owner](const Owner* owner) { ++of_owner[owner]; });
     for (const AgentIndex agent : {pair.lower, pair.higher}) {
       const auto count = std::count(Of(agent).begin(), Of(agent).end(), slot);
       CORE_CHECK(count == 1, "a pair stands once with each of its agents", slot.value(), count);
     }
+  }
+  for (const auto& [owner, pairs] : of_owner) {
+    CORE_CHECK(owner->used == pairs, "an owner's pairs are counted", owner->used, pairs);
   }
   CORE_CHECK(held == size_, "tracked pairs are counted", held, size_);
   CORE_CHECK(size_ <= pairs_max_, "there are no more pairs than allowed", size_, pairs_max_);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collision_core/base/ids.h"
+#include "collision_core/base/shared_limit.h"
 #include "collision_core/detection/events/announcer.h"
 #include "collision_core/detection/pairs/contact_tracker.h"
 
@@ -59,7 +60,12 @@ class PairTable {
       : pairs_max_(pairs_max), pairs_per_agent_max_(pairs_per_agent_max) {}
 
   /// The agent of this index has no pairs yet.
-  void AddAgent(AgentIndex agent);
+  void AddAgent(AgentIndex agent, const OwnerId& owner = {});
+  /// Requires AddAgent(agent), and that it has no pairs.
+  void RemoveAgent(AgentIndex agent);
+
+  /// How many pairs the owner's agents may have. No effect while it has none.
+  void SetShare(const OwnerId& owner, const Share& share);
 
   /// Adds a pair and returns its slot; None() if `pairs_max` pairs are tracked. Otherwise requires
   /// RoomFor() > 0 of both agents. Unchecked: the two share no pair yet; Validate() finds it.
@@ -87,14 +93,24 @@ class PairTable {
   /// Pairs that can still be added: in all, and with this agent. Requires AddAgent(agent).
   std::size_t room() const { return pairs_max_ - size_; }
   std::size_t RoomFor(AgentIndex agent) const;
-  bool IsFull(AgentIndex agent) const { return full_.at(agent) != 0 || room() == 0; }
+  bool IsFull(AgentIndex agent) const { return full_.at(agent) != 0 || OwnersRoom(agent) == 0; }
 
   /// Walks the whole table: each pair stands with both its agents, which share no other; each other
   /// slot is free, and listed as free once.
   void Validate() const;
 
  private:
+  using Owner = SharedLimit<OwnerId>::Account;
+
   void UpdateFull(AgentIndex agent);
+  /// Pairs that the agent's owner may still have. The exhaustive broad phase also asks about
+  /// indices that no agent has.
+  std::size_t OwnersRoom(AgentIndex agent) const {
+    const Owner* owner = owner_of_[agent];
+    return owner == nullptr ? room() : owners_.RoomFor(*owner, room());
+  }
+  template <typename Visitor>
+  void ForEachOwner(const PairRecord& pair, const Visitor& visit) const;
   void ValidateAgent(AgentIndex agent) const;
 
   const std::uint32_t pairs_max_;
@@ -104,6 +120,8 @@ class PairTable {
   std::deque<PairSlot> free_;
   IndexedVector<AgentIndex, std::vector<PairSlot>> of_agent_;
   IndexedVector<AgentIndex, std::uint8_t> full_;  // as many pairs as the agent may have
+  SharedLimit<OwnerId> owners_;                   // present as often as an owner has agents
+  IndexedVector<AgentIndex, Owner*> owner_of_;
 };
 
 }  // namespace collision::detection

@@ -61,7 +61,7 @@ TrackedPairs::TrackedPairs(const DetectorOptions& options, const DetectorContext
       announcer_(options, context.counters) {}
 
 void TrackedPairs::ForgetAgent(AgentIndex agent) {
-  CORE_CHECK(table_.Of(agent).empty(), "an agent that leaves has no pairs", agent.value());
+  table_.RemoveAgent(agent);
   announcer_.Forget(agent);
 }
 

@@ -37,9 +37,11 @@ class TrackedPairs {
   TrackedPairs(const DetectorOptions& options, const DetectorContext& context);
 
   /// The agent of this index is new.
-  void AddAgent(AgentIndex agent) { table_.AddAgent(agent); }
+  void AddAgent(AgentIndex agent) { table_.AddAgent(agent, OwnerOf(context_.agents[agent].id)); }
   /// Forgets an agent that has left. Requires that it has no pairs.
   void ForgetAgent(AgentIndex agent);
+
+  void SetShare(const OwnerId& owner, const Share& share) { table_.SetShare(owner, share); }
 
   const PairTable& table() const { return table_; }
 

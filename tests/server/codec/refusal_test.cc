@@ -61,7 +61,7 @@ TEST(Refusal, OfAnAgentNamesReasonAndField) {
   EXPECT_EQ(unknown.reason, v1::REJECTED_NOT_DESCRIBED);
   EXPECT_EQ(unknown.topic, v1::TOPIC_AGENT_STATES);
   EXPECT_EQ(unknown.detail, "why");
-  const Refusal full = NoRoom(kAgent, 1000);
+  const Refusal full = NoRoom(kAgent, "allowed: at most 1000");
   ExpectNamesTheAgent(full);
   EXPECT_EQ(full.reason, v1::REJECTED_TOO_MANY_AGENTS);
   EXPECT_NE(full.detail.find("at most 1000"), std::string::npos);

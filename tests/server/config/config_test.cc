@@ -73,6 +73,7 @@ TEST(ConfigOptions, CoverEveryField) {
   std::vector<std::string> fields;
   const auto* config = v1::Config::descriptor();
   for (int i = 0; i < config->field_count(); ++i) {
+    if (config->field(i)->is_repeated()) continue;  // Blocks, which have no default.
     const auto* nested = config->field(i)->message_type();
     if (!nested) fields.push_back(config->field(i)->name());
     for (int j = 0; nested && j < nested->field_count(); ++j) {
@@ -286,6 +287,35 @@ TEST(Config, ContradictingFieldsAreRefused) {
     EXPECT_EQ(result.errors.size(), *error ? 1u : 0u) << text << first;
     EXPECT_TRUE(first.starts_with(error)) << first;
   }
+}
+
+// Goal:   a block of limits allows no more than the world; each error names block and field, and
+//         what is printed loads again.
+TEST(Config, BlocksOfLimitsAreChecked) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"limits { name: \"drone-*\" agents_max: 100 guaranteed: 0.5 }", ""},
+      {"limits { name: \"a\" } limits { name: \"*\" pairs_max: 1 }", ""},
+      {"limits { agents_max: 1 }", "F:1: limits[0].name: "},
+      {"limits { name: \"a.b\" }", "F:1: limits[0].name: "},
+      {"agents_max: 10 \n limits { name: \"a\" agents_max: 11 }", "F:2: limits[0].agents_max: "},
+      {"limits { name: \"a\" shapes_max: 0 }", "F:1: limits[0].shapes_max: "},
+      {"limits { name: \"a\" guaranteed: 1.5 }", "F:1: limits[0].guaranteed: "},
+      {"limits { name: \"a\" guaranteed: nan }", "F:1: limits[0].guaranteed: "},
+      {"limits { name: \"a\" agents: 1 }", "F:1: limits.agents: "},
+      {"limits { name: \"a\" guaranteed: 0.6 }\nlimits { name: \"b\" guaranteed: 0.5 }",
+       "F:2: limits[1].guaranteed: "}};
+  for (const auto& [text, error] : cases) {
+    const ConfigResult result = ParseConfig(text, "F");
+    const std::string first = result.ok() ? "" : result.errors[0];
+    EXPECT_EQ(result.errors.size(), *error ? 1u : 0u) << text << first;
+    EXPECT_TRUE(first.starts_with(error)) << first;
+    if (!result.ok()) continue;
+    const ConfigResult again = ParseConfig(PrintConfig(result.config), "F");
+    EXPECT_EQ(again.config.SerializeAsString(), result.config.SerializeAsString());
+  }
+  std::string many;
+  for (int i = 0; i < 65; ++i) many += "limits { name: \"a*\" }";
+  EXPECT_EQ(ParseConfig(many, "F").errors.size(), 1u);
 }
 
 std::string RandomValue(const ConfigOption& option, Random& random) {

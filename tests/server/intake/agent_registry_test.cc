@@ -79,7 +79,7 @@ class AgentRegistryTest : public testing::Test {
   detection::Detector detector{detection::DetectorOptions{}};
   Rejections rejections{100, &world};
   InlineShapeBuilder builder{BuildOptions{.triangles_max = 1000}};
-  ShapeStore store{config, &builder};
+  ShapeStore store{config, &builder, &world.quotas()};
   AgentShapes shapes{config, &world, &detector, &rejections, &store};
   AgentRegistry registry{config, &world, &detector, &rejections, &shapes};
   Simulator* alpha = nullptr;

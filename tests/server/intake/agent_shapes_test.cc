@@ -73,7 +73,7 @@ class AgentShapesTest : public testing::Test {
   detection::Detector detector{detection::DetectorOptions{}};
   Rejections rejections{100, &world};
   InlineShapeBuilder builder{BuildOptions{.triangles_max = 10000}};
-  ShapeStore store{config, &builder};
+  ShapeStore store{config, &builder, &world.quotas()};
   AgentShapes shapes{config, &world, &detector, &rejections, &store};
   Simulator* alpha = nullptr;
   std::string detail;  // of the last rejection

@@ -51,6 +51,21 @@ TEST(MatterLimiter, TellsTheLastCount) {
   EXPECT_EQ(log.lines.size(), 4u);
 }
 
+// Goal:   what is refused of one simulator does not hide what is refused of another; simulators
+//         that come and go take no place for good.
+TEST(MatterLimiter, SubjectsDoNotDisturbEachOther) {
+  Recorded log;
+  for (int i = 0; i < 3; ++i) log.limiter.Write(At(0), kInfo, "refused", "a", "alpha");
+  log.limiter.Write(At(0), kInfo, "refused", "b", "beta");
+  EXPECT_EQ(log.lines, (Lines{"refused: a", "refused: b"}));
+  log.limiter.WriteAllCounts();
+  EXPECT_EQ(log.lines.back(), "refused (alpha): lines suppressed: 2");
+  for (int i = 0; i < 1000; ++i) {
+    log.limiter.Write(At(1 + 0.01 * i), kInfo, "refused", "x", std::to_string(i));
+  }
+  EXPECT_EQ(log.lines.size(), 1003u);
+}
+
 // Goal:   matters built from input by mistake cannot flood the log or grow memory without bound.
 // Method: 1,000 matters at once: 256 are known, the rest share one limit.
 TEST(MatterLimiter, BoundsTheNumberOfMatters) {

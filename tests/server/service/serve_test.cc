@@ -42,7 +42,8 @@ class BlockingBus final : public Bus {
   std::promise<void> never_;
 };
 
-/// Hands out one batch, then waits until it is woken; fails a check at the first clearance.
+/// Hands out one batch, then waits until it is woken; fails a check at the first clearance of an
+/// agent.
 class FailingBus final : public Bus {
  public:
   explicit FailingBus(std::vector<v1::Input> inputs) : inputs_(std::move(inputs)) {}
@@ -54,7 +55,7 @@ class FailingBus final : public Bus {
     return true;
   }
   void Publish(const v1::Output& output) override {
-    CORE_CHECK(!output.has_clearance(), "planted in the bus", 42);
+    CORE_CHECK(output.clearance().agents().empty(), "planted in the bus", 42);
   }
   void Flush() override {}
   void Wake() override {
@@ -145,12 +146,14 @@ TEST(Serve, EndsAtAFailedCheckWithItsRecordingWhole) {
 //         daemon's thread, which it wakes.
 TEST(Serve, EndsAtACheckThatFailsOnAnotherThread) {
   const std::string bytes = EncodeShape(Cube(1));
-  FailingBus bus(From(10, PartsOf("alpha", bytes)));
+  std::vector<v1::Input> inputs = From(10, PartsOf("alpha", bytes));
+  inputs.push_back(From(10, ClockOf("alpha", 0)));
+  FailingBus bus(inputs);
   const Served served = ServeOn(bus, std::make_shared<FailingTreeStore>());
   EXPECT_EQ(served.exit_code, 70);
   EXPECT_NE(served.log.find("planted in the store of trees"), std::string::npos) << served.log;
   ASSERT_EQ(served.batches.size(), 1u);
-  EXPECT_EQ(served.batches[0].inputs_size(), 1);
+  EXPECT_EQ(served.batches[0].inputs_size(), 2);
   EXPECT_EQ(served.recording_error, "");
 }
 

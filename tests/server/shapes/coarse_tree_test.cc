@@ -85,7 +85,7 @@ TEST(CoarseTree, TheWantedOneFollows) {
 TEST(CoarseTree, ThreadsHandOutBoth) {
   Bell bell;
   ThreadedShapeBuilder builder(Options(), [&bell] { bell.Ring(); });
-  builder.Start("a", LargeBytes());
+  builder.Start("a", LargeBytes(), 1);
   bell.WaitFor(1);
   const std::vector<ReadyTree> first = builder.TakeFinished();
   ASSERT_FALSE(first.empty());
@@ -98,11 +98,11 @@ TEST(CoarseTree, ThreadsHandOutBoth) {
   EXPECT_EQ(builder.counters().building, 0u);
   EXPECT_FALSE(builder.Await({"a"}).coarse);
   EXPECT_THROW(builder.Await({"a"}), std::logic_error);
-  builder.Start("b", LargeBytes());
+  builder.Start("b", LargeBytes(), 1);
   bell.WaitFor(4);
   EXPECT_EQ(builder.TakeFinished(), std::vector<ReadyTree>{{"b"}});
   // Reported once, it is kept until it is handed out, though the other one is there by then.
-  builder.Start("c", LargeBytes());
+  builder.Start("c", LargeBytes(), 1);
   bell.WaitFor(5);
   const std::vector<ReadyTree> reported = builder.TakeFinished();
   bell.WaitFor(6);
@@ -117,7 +117,7 @@ TEST(CoarseTree, FirstTreesComeBeforeRefinements) {
   ThreadedShapeBuilder builder(Options(), [&bell] { bell.Ring(); });
   const std::string larger = EncodeShape(FineCube(60));
   const std::set<std::string> hashes = {"a", "b", "c", "d"};
-  for (const std::string& hash : hashes) builder.Start(hash, larger);
+  for (const std::string& hash : hashes) builder.Start(hash, larger, 1);
   bell.WaitFor(5);
   std::set<std::string> seen;
   for (const ReadyTree& tree : builder.TakeFinished()) seen.insert(tree.hash);
@@ -133,7 +133,7 @@ TEST(CoarseTree, AForgottenShapeDoesNotReappear) {
   for (int round = 0; round < 12; ++round) {
     Bell bell;
     ThreadedShapeBuilder builder(Options(), [&bell] { bell.Ring(); });
-    builder.Start("a", LargeBytes());
+    builder.Start("a", LargeBytes(), 1);
     bell.WaitFor(1);
     const std::vector<ReadyTree> first = builder.TakeFinished();
     if (random.Chance(0.5)) builder.Await(first[0]);
@@ -142,7 +142,7 @@ TEST(CoarseTree, AForgottenShapeDoesNotReappear) {
       builder.Forget("a");
       EXPECT_TRUE(builder.TakeFinished().empty());
     }
-    builder.Start("a", LargeBytes());
+    builder.Start("a", LargeBytes(), 1);
     EXPECT_EQ(builder.counters().building, 1u);
     EXPECT_TRUE(builder.Await({"a"}).shape);
     EXPECT_EQ(builder.counters().building, 0u);
@@ -173,7 +173,9 @@ TEST(CoarseTree, CachedTreesSkipIt) {
 class StagedShapeBuilder final : public ShapeBuilder {
  public:
   explicit StagedShapeBuilder(std::vector<ReadyTree>* finished) : finished_(*finished) {}
-  void Start(const std::string& hash, std::string bytes) override { inline_.Start(hash, bytes); }
+  void Start(const std::string& hash, std::string bytes, std::uint64_t simulator) override {
+    inline_.Start(hash, bytes, simulator);
+  }
   bool has_finished() const override { return !finished_.empty(); }
   std::vector<ReadyTree> TakeFinished() override { return std::exchange(finished_, {}); }
   BuiltShape Await(const ReadyTree& tree) override { return inline_.Await(tree); }

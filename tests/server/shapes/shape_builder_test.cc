@@ -103,9 +103,9 @@ TEST(BuildShape, DamagedBytesAreNeverMoreThanRefused) {
 TEST(InlineShapeBuilder, ReportsAtOnceAndBuildsWhenAwaited) {
   InlineShapeBuilder builder({.triangles_max = 100});
   EXPECT_FALSE(builder.has_finished());
-  builder.Start("1", EncodeShape(Cube(1)));
-  builder.Start("2", EncodeShape(Cube(2)));
-  builder.Start("3", "nothing");
+  builder.Start("1", EncodeShape(Cube(1)), 1);
+  builder.Start("2", EncodeShape(Cube(2)), 1);
+  builder.Start("3", "nothing", 1);
   builder.Forget("1");
   EXPECT_TRUE(builder.has_finished());
   EXPECT_EQ(builder.TakeFinished(), (std::vector<ReadyTree>{{"2"}, {"3"}}));
@@ -121,7 +121,7 @@ TEST(ThreadedShapeBuilder, RingsWhenSomethingIsFinished) {
   Bell bell;
   ThreadedShapeBuilder builder({.triangles_max = 10'000}, [&bell] { bell.Ring(); });
   for (int i = 1; i <= 3; ++i) {
-    builder.Start(std::to_string(i), EncodeShape(Cube(i)));
+    builder.Start(std::to_string(i), EncodeShape(Cube(i)), 1);
     bell.WaitFor(i);
     EXPECT_TRUE(builder.has_finished());
     EXPECT_EQ(builder.TakeFinished(), std::vector<ReadyTree>{{std::to_string(i)}});
@@ -129,7 +129,7 @@ TEST(ThreadedShapeBuilder, RingsWhenSomethingIsFinished) {
     EXPECT_EQ(builder.Await({std::to_string(i)}).shape->mesh().vertices[7],
               Eigen::Vector3d(i, i, i));
   }
-  builder.Start("bad", "nothing");
+  builder.Start("bad", "nothing", 1);
   bell.WaitFor(4);
   EXPECT_FALSE(builder.Await({"bad"}).shape);
   EXPECT_FALSE(builder.has_finished());
@@ -140,7 +140,7 @@ TEST(ThreadedShapeBuilder, RingsWhenSomethingIsFinished) {
 TEST(ThreadedShapeBuilder, AwaitWaits) {
   ThreadedShapeBuilder builder({.triangles_max = 10'000}, [] {});
   for (int i = 0; i < 3; ++i) {
-    builder.Start(std::to_string(i), EncodeShape(Sphere(8 + i)));
+    builder.Start(std::to_string(i), EncodeShape(Sphere(8 + i)), 1);
   }
   for (int i = 2; i >= 0; --i) EXPECT_TRUE(builder.Await({std::to_string(i)}).shape) << i;
   EXPECT_TRUE(builder.TakeFinished().empty());
@@ -164,7 +164,7 @@ TEST(ThreadedShapeBuilder, ForgetsAtAnyMoment) {
         builder.Forget(hash);
       }
     } else {
-      builder.Start(hash, random.Chance(0.5) ? cube : sphere);
+      builder.Start(hash, random.Chance(0.5) ? cube : sphere, 1);
     }
     started[which] = !started[which];
     for (const ReadyTree& finished : builder.TakeFinished()) {
@@ -186,7 +186,7 @@ TEST(ThreadedShapeBuilder, StartsAndStopsRepeatedly) {
     auto rings = std::make_unique<std::atomic<int>>(0);
     {
       ThreadedShapeBuilder builder({.triangles_max = 10'000}, [&rings] { ++*rings; });
-      for (int n = 0; n < i % 5; ++n) builder.Start(std::to_string(n), sphere);
+      for (int n = 0; n < i % 5; ++n) builder.Start(std::to_string(n), sphere, 1);
       if (i % 5 > 0 && i % 3 == 1) builder.Await({"0"});
     }
     const int rung = *rings;
@@ -203,8 +203,8 @@ TEST(ThreadedShapeBuilder, SmallShapesDoNotWaitForLargeOnes) {
   ThreadedShapeBuilder builder({.triangles_max = 100'000}, [&bell] { bell.Ring(); });
   const std::string large = EncodeShape(Sphere(90));
   ASSERT_GT(large.size(), 500'000u);
-  for (const char* hash : {"a", "b", "c", "d"}) builder.Start(hash, large);
-  builder.Start("small", EncodeShape(Cube(1)));
+  for (const char* hash : {"a", "b", "c", "d"}) builder.Start(hash, large, 1);
+  builder.Start("small", EncodeShape(Cube(1)), 1);
   bell.WaitFor(2);
   const std::vector<ReadyTree> finished = builder.TakeFinished();
   EXPECT_NE(std::find(finished.begin(), finished.end(), ReadyTree{"small"}), finished.end());
@@ -217,14 +217,14 @@ TEST(ThreadedShapeBuilder, CarriesAFailedCheckToItsCaller) {
   const BuildOptions options{.triangles_max = 100, .cache = std::make_shared<FailingTreeStore>()};
   Bell bell;
   ThreadedShapeBuilder builder(options, [&bell] { bell.Ring(); });
-  builder.Start("1", EncodeShape(Cube(1)));
+  builder.Start("1", EncodeShape(Cube(1)), 1);
   bell.WaitFor(1);
   EXPECT_TRUE(builder.has_finished());
   EXPECT_THROW(builder.TakeFinished(), CheckFailure);
   EXPECT_THROW(builder.Await({"1"}), CheckFailure);
 
   ThreadedShapeBuilder awaited(options, [] {});
-  awaited.Start("1", EncodeShape(Cube(1)));
+  awaited.Start("1", EncodeShape(Cube(1)), 1);
   EXPECT_THROW(awaited.Await({"1"}), CheckFailure);
 }
 
@@ -233,8 +233,8 @@ TEST(ThreadedShapeBuilder, BuildsWhatTheInlineOneBuilds) {
   const std::string bytes = EncodeShape(Sphere(12));
   InlineShapeBuilder inline_builder({.triangles_max = 10'000});
   ThreadedShapeBuilder threaded({.triangles_max = 10'000}, [] {});
-  inline_builder.Start("1", bytes);
-  threaded.Start("1", bytes);
+  inline_builder.Start("1", bytes, 1);
+  threaded.Start("1", bytes, 1);
   const auto a = inline_builder.Await({"1"}).shape, b = threaded.Await({"1"}).shape;
   ASSERT_TRUE(a && b);
   ASSERT_EQ(a->tree().nodes.size(), b->tree().nodes.size());

@@ -38,6 +38,7 @@ TEST(ShapeLifetime, ASuccessorWritesItsPartsAgain) {
   EXPECT_EQ(daemon.counter("shape_bytes"), 0u);
   daemon.Step({Liveliness(kAlpha, "alpha", false)});
   daemon.Step(From(kBeta, PartsOf("alpha", CubeBytes(), 2)));
+  daemon.Step({From(kBeta, ClockOf("alpha", 0, 2))});
   EXPECT_EQ(daemon.counter("shapes"), 1u);
 }
 
@@ -80,6 +81,7 @@ TEST(ShapeLifetime, LivesAsLongAsItIsNeeded) {
 TEST(ShapeLifetime, AStrangersDisposalIsRefused) {
   ScriptedDaemon daemon(Simulated());
   const std::vector<v1::ShapePart> parts = PartsOf("alpha", CubeBytes());
+  daemon.Step({From(kAlpha, ClockOf("alpha", 0))});
   daemon.Step(From(kAlpha, parts));
   daemon.Step({RemovalsOf(kBeta, parts)[0]});
   ASSERT_EQ(daemon.rejections().size(), 1u);
@@ -96,6 +98,7 @@ TEST(ShapeLifetime, AFalseCopySpoilsNoTrueShape) {
   ScriptedDaemon daemon(Simulated());
   std::vector<v1::ShapePart> lies = PartsOf("beta", CubeBytes());
   lies[0].mutable_bytes()->back() ^= 1;
+  daemon.Step({From(kBeta, Description("beta", 0))});
   daemon.Step(From(kBeta, lies));
   ASSERT_EQ(daemon.rejections().size(), 1u);
   const v1::Rejection rejection = daemon.rejections()[0];

@@ -102,7 +102,9 @@ class MemorySink final : public BatchSink {
 class LateShapeBuilder final : public ShapeBuilder {
  public:
   explicit LateShapeBuilder(const bool* late) : late_(*late) {}
-  void Start(const std::string& hash, std::string bytes) override { inline_.Start(hash, bytes); }
+  void Start(const std::string& hash, std::string bytes, std::uint64_t simulator) override {
+    inline_.Start(hash, bytes, simulator);
+  }
   bool has_finished() const override { return !late_ && inline_.has_finished(); }
   std::vector<ReadyTree> TakeFinished() override {
     return late_ ? std::vector<ReadyTree>() : inline_.TakeFinished();
@@ -182,7 +184,9 @@ TEST(ShapeService, RecordsThatAShapeIsReady) {
   MemorySink sink;
   ScriptedDaemon daemon(Simulated(), &sink);
   TwoCubes cubes(1.9);
-  daemon.Step(cubes.Parts());
+  std::vector<v1::Input> first = cubes.Descriptions();
+  for (const v1::Input& part : cubes.Parts()) first.push_back(part);
+  daemon.Step(first);
   daemon.Step(cubes.Tick());
   Fly(&daemon, &cubes, 3);
   int ready = 0;

@@ -281,7 +281,7 @@ TEST(ShapeSolids, ManyFitBesideFewTriangles) {
   ScriptedDaemon daemon(config);
   const std::string bytes = EncodeShape(Of(std::vector<SolidContent>(1000, Box())));
   daemon.Step(From(kAlpha, PartsOf("alpha", bytes)));
-  daemon.Step({});
+  daemon.Step({From(kAlpha, ClockOf("alpha", 0))});
   EXPECT_TRUE(daemon.rejections().empty());
   EXPECT_EQ(daemon.counter("shapes"), 1u);
 }

@@ -44,7 +44,8 @@ class ShapeStoreTest : public testing::Test {
 
   v1::Config config = CompleteConfig({});
   InlineShapeBuilder builder{BuildOptions{.triangles_max = 1000}};
-  ShapeStore store{config, &builder};
+  SimulatorQuotas quotas{config};
+  ShapeStore store{config, &builder, &quotas};
   const std::string bytes = EncodeShape(Cube(1, UnusedFor(4)));
   const std::string hash = Sha256(bytes);
   const std::vector<v1::ShapePart> parts = PartsOf("a", bytes);
@@ -55,7 +56,7 @@ using None = std::vector<std::string>;
 TEST_F(ShapeStoreTest, AnyOrderWithRepetitionsMakesTheShape) {
   Random random(1);
   for (int round = 0; round < 30; ++round) {
-    ShapeStore fresh(config, &builder);
+    ShapeStore fresh(config, &builder, &quotas);
     std::vector<std::size_t> order(parts.size());
     std::iota(order.begin(), order.end(), 0);
     for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.Below(i)]);
@@ -86,7 +87,7 @@ TEST_F(ShapeStoreTest, AnyOrderWithRepetitionsMakesTheShape) {
 
 TEST_F(ShapeStoreTest, WithOnePartMissingItIsNotWhole) {
   for (std::size_t missing = 0; missing < parts.size(); ++missing) {
-    ShapeStore fresh(config, &builder);
+    ShapeStore fresh(config, &builder, &quotas);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (i != missing) {
         ASSERT_FALSE(fresh.Take(parts[i]));
@@ -105,7 +106,7 @@ TEST_F(ShapeStoreTest, WithOnePartMissingItIsNotWhole) {
 //         sent again.
 TEST_F(ShapeStoreTest, AWrongHashIsRefusedAndMayBeSentAgain) {
   for (std::size_t spoilt = 0; spoilt < parts.size(); ++spoilt) {
-    ShapeStore fresh(config, &builder);
+    ShapeStore fresh(config, &builder, &quotas);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       v1::ShapePart part = parts[i];
       if (i == spoilt) part.mutable_bytes()->front() ^= 1;
@@ -135,7 +136,7 @@ TEST_F(ShapeStoreTest, PartsThatContradictAreRefused) {
 
 TEST_F(ShapeStoreTest, APartThatComesAgainWithOtherBytesIsRefused) {
   for (const std::vector<std::size_t>& before : {std::vector<std::size_t>{0, 1}, {3, 1}}) {
-    ShapeStore fresh(config, &builder);
+    ShapeStore fresh(config, &builder, &quotas);
     for (const std::size_t i : before) ASSERT_FALSE(fresh.Take(parts[i]));
     v1::ShapePart changed = parts[1];
     changed.mutable_bytes()->back() ^= 1;
@@ -155,7 +156,7 @@ TEST_F(ShapeStoreTest, ALiarSpoilsNothing) {
   lies[1].mutable_bytes()->front() ^= 1;
   int refusals = 0;
   for (int round = 0; round < 100; ++round) {
-    ShapeStore fresh(config, &builder);
+    ShapeStore fresh(config, &builder, &quotas);
     std::size_t true_parts = 0, false_parts = 0;
     while (true_parts < parts.size() || false_parts < lies.size()) {
       const bool lie =
@@ -296,7 +297,8 @@ TEST(ShapeStoreLimits, AreKept) {
   config.set_shape_triangles_max(10'000);
   config = CompleteConfig(config);
   InlineShapeBuilder builder({.triangles_max = 10'000});
-  ShapeStore store(config, &builder);
+  SimulatorQuotas quotas(config);
+  ShapeStore store(config, &builder, &quotas);
   const auto take = [&store](const std::vector<v1::ShapePart>& parts) {
     std::vector<std::string> refused;
     for (const v1::ShapePart& part : parts) {
@@ -326,8 +328,10 @@ TEST(ShapeStoreLimits, AreKept) {
 TEST(ShapeStoreLimits, APartForWhichThereIsNoRoomIsRefused) {
   v1::Config config;
   config.set_shape_bytes_max(2 * wire::kShapePartBytes);
+  config = CompleteConfig(config);
   InlineShapeBuilder builder({.triangles_max = 10'000});
-  ShapeStore store(CompleteConfig(config), &builder);
+  SimulatorQuotas quotas(config);
+  ShapeStore store(config, &builder, &quotas);
   const std::string two = EncodeShape(Cube(1, UnusedFor(1)));
   const std::string other = EncodeShape(Cube(2, UnusedFor(1)));
   for (const v1::ShapePart& part : PartsOf("a", two)) EXPECT_FALSE(store.Take(part));
@@ -377,7 +381,8 @@ TEST(ShapeStoreAtRandom, CountsWhatIsThere) {
   config.set_shape_bytes_max(5 * wire::kShapePartBytes);
   config = CompleteConfig(config);
   InlineShapeBuilder builder({.triangles_max = 1000});
-  ShapeStore store(config, &builder);
+  SimulatorQuotas quotas(config);
+  ShapeStore store(config, &builder, &quotas);
   Random random(3);
   std::vector<std::vector<v1::ShapePart>> shapes;
   for (const std::size_t parts : {0, 1, 2}) {

@@ -73,6 +73,37 @@ TEST_F(TreeFolderTest, AFolderThatIsExactlyFullLosesNothing) {
   EXPECT_TRUE(folder.Read("a", &fault_));
 }
 
+// Goal:   however small the files are, their number is bounded, and the least used go first.
+TEST_F(TreeFolderTest, TheNumberOfFilesIsBounded) {
+  MakeFile("old.tree", "1");
+  MakeFile("older.tree", "1");
+  Age("old.tree", 1);
+  Age("older.tree", 2);
+  TreeFolder folder(path_, 1000, 3);
+  ASSERT_TRUE(folder.Write("a", "1", &fault_));
+  EXPECT_EQ(folder.removed(), 0u);
+  ASSERT_TRUE(folder.Write("a", "12", &fault_));
+  EXPECT_EQ(folder.removed(), 0u) << "it replaces the one before";
+  EXPECT_EQ(folder.bytes(), 4u);
+  ASSERT_TRUE(folder.Read("older", &fault_)) << "used now";
+  ASSERT_TRUE(folder.Write("b", "1", &fault_));
+  EXPECT_FALSE(folder.Read("old", &fault_));
+  EXPECT_TRUE(folder.Read("older", &fault_));
+  EXPECT_EQ(folder.removed(), 1u);
+}
+
+// Goal:   the files of another process count, within so many writes.
+TEST_F(TreeFolderTest, FilesOfOthersAreFound) {
+  TreeFolder folder(path_, 1000, 2), other(path_, 1000, 2);
+  ASSERT_TRUE(other.Write("b", "1", &fault_));
+  ASSERT_TRUE(other.Write("c", "1", &fault_));
+  for (std::uint64_t i = 0; i < kWritesPerListing; ++i) {
+    ASSERT_TRUE(folder.Write("a", "1", &fault_));
+  }
+  EXPECT_EQ(folder.removed(), 1u);
+  EXPECT_EQ(folder.bytes(), 2u);
+}
+
 TEST_F(TreeFolderTest, AFileOfTheWholeSizeFitsAndALargerOneDoesNot) {
   TreeFolder folder(path_, 4);
   EXPECT_TRUE(folder.Write("a", "1234", &fault_));

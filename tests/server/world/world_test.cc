@@ -89,15 +89,21 @@ TEST(World, ALowerRunIsOldAndAHigherOneStartsAnew) {
   EXPECT_TRUE(higher.simulator->agents().clearances().TakeChanged().contains(1));
 }
 
-// Goal:   a sender of states alone has proved nothing: a named message takes the id from it.
+// Goal:   states alone prove nothing: they make no simulator and take over none, but are not
+//         refused either, since the name may come.
 TEST(World, OnlyANameProvesOwnership) {
   World world(Simulated(1));
   const std::string name = "a";
-  EXPECT_TRUE(world.ClaimFor(1, 66, 9, nullptr).accepted);
-  EXPECT_FALSE(world.ClaimFor(1, 10, 1, nullptr).accepted);
-  const Claim named = world.ClaimFor(1, 10, 1, &name);
-  EXPECT_TRUE(named.accepted);
-  EXPECT_TRUE(named.new_run);
+  const Claim ghost = world.ClaimFor(1, 66, 9, nullptr);
+  EXPECT_FALSE(ghost.accepted);
+  EXPECT_TRUE(ghost.unproven);
+  EXPECT_TRUE(world.simulators().empty());
+  EXPECT_TRUE(world.ClaimFor(1, 10, 1, &name).accepted);
+  EXPECT_FALSE(world.ClaimFor(1, 66, 9, nullptr).unproven);
+  world.Find(1)->SetAlive(false, 0);
+  EXPECT_TRUE(world.ClaimFor(1, 66, 9, nullptr).unproven);
+  EXPECT_FALSE(world.ClaimFor(1, 66, 9, nullptr).accepted);
+  EXPECT_TRUE(world.ClaimFor(1, 66, 9, &name).new_run);
 }
 
 TEST(World, HoldsNoMoreSimulatorsThanAllowedAndForgetsThoseThatLeft) {
@@ -248,11 +254,12 @@ TEST(World, WallTimeFollowsTheWallClock) {
   config.mutable_clock()->set_kind(v1::Clock::WALL);
   config.mutable_clock()->set_skew_max_s(0.002);
   World world(CompleteConfig(config));
+  const Simulator one(1, 1, 1, "a");
   EXPECT_FALSE(world.SetReading({.wall_ns = 1000 * kSecond, .monotonic_ns = 1 * kSecond}));
   EXPECT_EQ(world.now(), At(1000 * kSecond));
   EXPECT_FALSE(world.SetReading({.wall_ns = 1002 * kSecond, .monotonic_ns = 3 * kSecond}));
   EXPECT_EQ(world.now(), At(1002 * kSecond));
-  EXPECT_EQ(world.RulesForState(Simulator(1, 1, 1), true).latest, At(1002 * kSecond + 2'000'000));
+  EXPECT_EQ(world.RulesForState(one, true).latest, At(1002 * kSecond + 2'000'000));
   EXPECT_EQ(world.EffectiveFrom(At(1)), world.now());
   const auto step = world.SetReading({.wall_ns = 5000 * kSecond, .monotonic_ns = 3 * kSecond});
   ASSERT_TRUE(step && step->breaks);
@@ -260,7 +267,7 @@ TEST(World, WallTimeFollowsTheWallClock) {
   world.BeginEpoch();
   EXPECT_EQ(world.now(), At(5000 * kSecond));
   EXPECT_EQ(world.epoch(), 2u);
-  EXPECT_EQ(world.RulesForState(Simulator(1, 1, 1), true).earliest, At(5000 * kSecond - 2'000'000));
+  EXPECT_EQ(world.RulesForState(one, true).earliest, At(5000 * kSecond - 2'000'000));
 }
 
 // Goal:   an echo tells of an offset only if its sample is of this service and on the time scale of
