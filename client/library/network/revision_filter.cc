@@ -19,6 +19,8 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
   }
   const bool repeated = known != nullptr && IsRepeated(event, *known);
   if (repeated && is_contact) ++contacts_repeated_;
+  // What is over stays over.
+  if (repeated && event.status() != known->status) return false;
   if (known_.size() >= kPairsMax) {
     earlier_ = std::move(known_);
     known_.clear();
@@ -31,10 +33,17 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
 
 bool RevisionFilter::IsRepeated(const v1::CollisionEvent& event, const Known& known) {
   if (known.service == event.stamp().service_id()) return false;
-  if (event.contact() != known.contact || event.status() != known.status) return false;
-  if (IsForecast(event.status())) return event.begin().earliest_ns() >= known.begin_earliest_ns;
-  return event.begin().earliest_ns() <= known.begin_latest_ns &&
-         known.begin_earliest_ns <= event.begin().latest_ns();
+  const bool same = event.contact() == known.contact;
+  if (IsForecast(event.status())) {
+    return same && event.status() == known.status &&
+           event.begin().earliest_ns() >= known.begin_earliest_ns;
+  }
+  // Of an earlier contact of the pair readers of this one have been told.
+  if (!IsForecast(known.status) && event.begin().latest_ns() < known.begin_earliest_ns) return true;
+  const bool meets = event.begin().earliest_ns() <= known.begin_latest_ns &&
+                     known.begin_earliest_ns <= event.begin().latest_ns();
+  const bool is_over = known.status == v1::EVENT_ENDED || known.status == v1::EVENT_UNDECIDED;
+  return same && meets && (event.status() == known.status || (is_over && !event.began_before()));
 }
 
 bool RevisionFilter::IsOutdated(const v1::CollisionEvent& event, const Known& known) {
