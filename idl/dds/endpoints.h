@@ -14,6 +14,7 @@ namespace collision::dds {
 /// Which sides of the topics a program reads and writes, and in which partition; none: not at all.
 struct Partitions {
   std::optional<std::string> read_of_simulators, read_of_service;
+  bool read_earliest = false;  ///< Of the service: it is computed for its readers only.
   std::optional<std::string> read_of_other_services;  ///< Their status only.
   std::optional<std::string> write_as_simulator, write_as_service;
   std::optional<std::string> read_of_operators, write_as_operator;

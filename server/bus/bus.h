@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <vector>
 
 #include "idl/messages.pb.h"
@@ -32,6 +33,9 @@ class Bus {
   /// Whether its batches come from a recording and hold everything that the recorded daemon added
   /// to them, so that the daemon adds nothing.
   virtual bool recorded() const { return false; }
+
+  /// Who reads the earliest intersection, which is computed for them alone.
+  virtual std::uint32_t earliest_readers() const { return 1; }
 
   /// What the network did not deliver or accept, for the status: Counters of collision.idl, each
   /// name once.

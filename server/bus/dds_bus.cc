@@ -54,6 +54,8 @@ void DdsBus::Flush() { session_.Flush(); }
 
 void DdsBus::Wake() { session_.Wake(); }
 
+std::uint32_t DdsBus::earliest_readers() const { return session_.earliest_readers(); }
+
 std::vector<v1::Counter> DdsBus::network_counters() const {
   const DdsCounters counted = counters();
   return {CounterOf("dds_samples_lost", counted.samples_lost),

@@ -33,6 +33,8 @@ class DdsBus final : public Bus {
   void Flush() override;
   void Wake() override;
 
+  std::uint32_t earliest_readers() const override;
+
   /// counters(), each with "dds_" before its name.
   std::vector<v1::Counter> network_counters() const override;
 

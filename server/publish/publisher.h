@@ -1,6 +1,7 @@
 // Everything that the service publishes, stamped and handed to the bus.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -37,8 +38,12 @@ class Publisher {
   /// hears first whom it has met.
   void PublishEvents(const std::vector<detection::CollisionEvent>& events, const World& world);
 
-  /// Publishes the answer if it differs from the last one published.
-  void PublishEarliest(const detection::EarliestAnswer& answer, Instant now);
+  /// Whether somebody reads the earliest intersection and `earliest_period_s` is over since it was
+  /// last published or found unchanged.
+  bool EarliestIsDue(const World& world);
+
+  /// Publishes the answer if it differs from the last one published, or there are new readers.
+  void PublishEarliest(const detection::EarliestAnswer& answer, const World& world);
 
   void PublishRejections(std::vector<v1::Rejection> rejections);
 
@@ -68,7 +73,10 @@ class Publisher {
   EventLog event_log_;
   EventFilter filter_;
   EventCounters events_;
+  const std::int64_t earliest_period_ns_;
+  std::uint32_t earliest_readers_ = 0;
   std::optional<v1::EarliestIntersection> earliest_;
+  std::int64_t earliest_now_ns_ = 0, earliest_monotonic_ns_ = 0;  ///< Of `earliest_`.
 };
 
 }  // namespace collision::server

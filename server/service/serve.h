@@ -8,6 +8,7 @@
 #include "idl/config.pb.h"
 #include "server/bus/bus.h"
 #include "server/claim/journal.h"
+#include "server/claim/quarantine.h"
 #include "server/claim/service_claim.h"
 #include "server/publish/event_log.h"
 #include "server/recording/recording.h"
@@ -25,6 +26,7 @@ struct ServiceParts {
   RecordingWriter* recorder = nullptr;
   std::shared_ptr<TreeStore> trees = nullptr;
   Journal* journal = nullptr;
+  Quarantine* quarantine = nullptr;
   std::string state_failure = {};  ///< As in DaemonParts.
   ClaimOptions claim = {};
 };
