@@ -37,8 +37,8 @@ MessageMark MarkOf(const v1::Input& input);
 /// A start that finds a step unfinished *suspects* the message that was being applied or, if all
 /// were, every message of that step. A suspected message is applied in a step of its own, before
 /// all that comes with it. If it fails the service again, it is *quarantined*: refused as long as
-/// it comes with the same content. If it does not, or has been replaced, it is no longer suspected; a
-/// shape is until the service ends as asked.
+/// it comes with the same content. If it does not, or has been replaced, it is no longer
+/// suspected; a shape is until the service ends as asked.
 ///
 /// Both lists are bounded; beyond, the oldest are forgotten. To forget all, remove the file while
 /// the service is stopped. A failure that comes in a later step than the message that caused it, or
