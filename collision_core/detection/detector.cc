@@ -42,7 +42,9 @@ std::vector<AgentClearance> Detector::TakeChangedClearances() {
 std::optional<AgentClearance> Detector::ClearanceOf(const AgentId& id) const {
   return implementation_->ClearanceOf(id);
 }
-EarliestAnswer Detector::Earliest() const { return implementation_->Earliest(); }
+EarliestAnswer Detector::Earliest(std::size_t queries_max) const {
+  return implementation_->Earliest(queries_max);
+}
 std::size_t Detector::agents() const { return implementation_->agents().size(); }
 std::size_t Detector::pairs_tracked() const { return implementation_->pairs().table().size(); }
 std::size_t Detector::queued() const { return implementation_->queued(); }

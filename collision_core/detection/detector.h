@@ -1,6 +1,8 @@
 // The one façade of the core: states in, clearances and collision events out.
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -108,7 +110,12 @@ class Detector {
   /// The canonical earliest intersection as of the last Advance(). No later event or clearance
   /// depends on whether it is called. It fills a cache of its own and counts its work, which
   /// counters() and profile() show, so two threads may not call it at the same time.
-  EarliestAnswer Earliest() const;
+  ///
+  /// At most about `queries_max` queries are made for it. Where more agents and pairs than that may
+  /// be the first, as in a lattice, in which all tie, the answer is the least of the certified
+  /// bounds that are known, with an agent or pair that has it: no pair intersects before. The next
+  /// calls refresh these bounds in turn, the earliest first.
+  EarliestAnswer Earliest(std::size_t queries_max = std::numeric_limits<std::size_t>::max()) const;
 
   std::size_t agents() const;
   std::size_t pairs_tracked() const;

@@ -237,8 +237,8 @@ std::optional<AgentClearance> Detector::Implementation::ClearanceOf(const AgentI
   return clearances_.Of(agent);
 }
 
-EarliestAnswer Detector::Implementation::Earliest() {
-  const EarliestAnswer answer = earliest_.Find();
+EarliestAnswer Detector::Implementation::Earliest(std::size_t queries_max) {
+  const EarliestAnswer answer = earliest_.Find(queries_max);
   clearances_.UpdateCounters();
   return answer;
 }

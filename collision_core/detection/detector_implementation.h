@@ -30,7 +30,7 @@ class Detector::Implementation {
 
   std::vector<AgentClearance> TakeChangedClearances() { return clearances_.TakeChanged(); }
   std::optional<AgentClearance> ClearanceOf(const AgentId& id) const;
-  EarliestAnswer Earliest();
+  EarliestAnswer Earliest(std::size_t queries_max);
   Profile DescribeScene() const;
 
   const StepClock& clock() const { return clock_; }

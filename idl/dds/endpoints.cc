@@ -52,13 +52,15 @@ class Builder {
 
   /// `inbox`: null, the readers keep their samples themselves.
   void Read(Source source, const std::string& partition, const dds_listener_t* listener,
-            Inbox* inbox) {
+            Inbox* inbox, bool earliest = true) {
     Qos qos = MakeQos();
     dds_qset_partition1(qos.get(), partition.c_str());
     const dds_entity_t subscriber =
         Check(dds_create_subscriber(participant_, qos.get(), nullptr), "DDS subscriber");
     for (const TopicRow& row : Topics()) {
-      if (row.source == source) Read(row, subscriber, ReaderQos(row), listener, inbox);
+      if (row.source != source) continue;
+      if (row.id == TopicId::kEarliestIntersection && !earliest) continue;
+      Read(row, subscriber, ReaderQos(row), listener, inbox);
     }
   }
 
@@ -125,10 +127,10 @@ class Builder {
 Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
                         dds_duration_t lease, const dds_listener_t* listener, Inbox* inbox) {
   Builder builder(participant, lease);
-  const auto& [of_simulators, of_service, of_other_services, events_too, as_simulator, as_service,
-               of_operators, as_operator] = partitions;
+  const auto& [of_simulators, of_service, earliest, of_other_services, events_too, as_simulator,
+               as_service, of_operators, as_operator] = partitions;
   if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener, inbox);
-  if (of_service) builder.Read(Source::kService, *of_service, nullptr, nullptr);
+  if (of_service) builder.Read(Source::kService, *of_service, nullptr, nullptr, earliest);
   if (of_other_services) builder.ReadOtherServices(*of_other_services, events_too, listener);
   if (as_service) builder.Write(Source::kService, *as_service);
   if (as_simulator) builder.Write(Source::kSimulators, *as_simulator);

@@ -49,6 +49,7 @@ dds::Partitions PartitionsOf(const DdsSessionOptions& options) {
     partitions.read_of_simulators = options.world + ".*";
   if (simulator || as_operator || (monitor && options.reads_service))
     partitions.read_of_service = options.world;
+  partitions.read_earliest = monitor;
   if (simulator) partitions.write_as_simulator = options.world + "." + options.simulator;
   if (service) partitions.read_of_other_services = partitions.write_as_service = options.world;
   partitions.read_events_of_other_services = service && options.reads_events_of_services;
@@ -170,6 +171,13 @@ class DdsSession::Implementation {
            status.alive_count > 0;
   }
 
+  std::uint32_t earliest_readers() const {
+    dds_publication_matched_status_t status{};
+    const dds_entity_t writer = Writer(dds::TopicId::kEarliestIntersection);
+    if (dds_get_publication_matched_status(writer, &status) != DDS_RETCODE_OK) return 0;
+    return status.current_count;
+  }
+
   DdsCounters counters() const {
     DdsCounters counters;
     for (const dds_entity_t reader : endpoints_.readers) {
@@ -252,6 +260,7 @@ void DdsSession::Wake() noexcept { implementation_->Wake(); }
 std::vector<DdsIgnored> DdsSession::TakeIgnored() { return implementation_->TakeIgnored(); }
 
 bool DdsSession::TakeRelief() { return implementation_->TakeRelief(); }
+std::uint32_t DdsSession::earliest_readers() const { return implementation_->earliest_readers(); }
 
 bool DdsSession::service_present() const { return implementation_->service_present(); }
 

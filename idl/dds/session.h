@@ -129,6 +129,9 @@ class DdsSession {
   /// service.
   bool service_present() const;
 
+  /// How many programs read the earliest intersection. For kService.
+  std::uint32_t earliest_readers() const;
+
   DdsCounters counters() const;
 
  private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,8 @@ class Bus {
 
   /// What the bus did to protect the service since the last call, a line for the log each.
   virtual std::vector<std::string> TakeWarnings() { return {}; }
+  /// Who reads the earliest intersection, which is computed for them alone.
+  virtual std::uint32_t earliest_readers() const { return 1; }
 
   /// What the network did not deliver or accept, for the status: Counters of collision.idl, each
   /// name once.

@@ -94,6 +94,7 @@ std::vector<std::string> DdsBus::TakeWarnings() {
   }
   return lines;
 }
+std::uint32_t DdsBus::earliest_readers() const { return session_.earliest_readers(); }
 
 std::vector<v1::Counter> DdsBus::network_counters() const {
   const DdsCounters counted = counters();

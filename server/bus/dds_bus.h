@@ -42,6 +42,7 @@ class DdsBus final : public Bus {
 
   /// The programs that are ignored from now on.
   std::vector<std::string> TakeWarnings() override;
+  std::uint32_t earliest_readers() const override;
 
   /// counters(), each with "dds_" before its name.
   std::vector<v1::Counter> network_counters() const override;

@@ -124,6 +124,9 @@ constexpr ConfigOption kOptions[] = {
      "their sender gets a rejection."},
     {"status_period_s", "s", "0.05", "10", "", "0.5",
      "Time between two samples of the service's status, by the monotonic clock."},
+    {"earliest_period_s", "s", "0", "3600", "", "0.1",
+     "Least time between two samples of the earliest possible intersection, of the world's time or "
+     "of the monotonic clock, whichever is over first. Computed only while somebody reads it."},
     {"rejections_per_second_max", "messages", "1", "100000", "", "100",
      "Rejections published per second; further ones are only counted in the status."},
     {"forecasts_per_second_max", "messages", "1", "1000000", "", "1000",
@@ -191,6 +194,10 @@ constexpr ConfigOption kOptions[] = {
      "triangles. A shape whose tree does not fit is refused; where only its finer tree does not, "
      "it "
      "keeps the coarse one."},
+    {"on_recording_failure", "none", "", "", "GO_ON or END", "GO_ON",
+     "When the recording (--record) cannot be written any more, as on a full disk: GO_ON serves on "
+     "without it, END ends the service with 74. It ends with a whole batch, and the log and the "
+     "status tell of it, either way."},
 };
 
 class Silent final : public google::protobuf::io::ErrorCollector {

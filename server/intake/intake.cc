@@ -7,6 +7,17 @@
 #include "server/process/logging.h"
 
 namespace collision::server {
+namespace {
+
+/// The refusal of a message over which the service has failed.
+Refusal Quarantined(Refusal where) {
+  where.reason = v1::REJECTED_OUT_OF_RANGE;
+  where.field = "content";
+  where.detail = "the service failed twice while it applied this message; allowed: other content";
+  return where;
+}
+
+}  // namespace
 
 Intake::Intake(const v1::Config& config, std::uint64_t instance, World* world,
                detection::Detector* detector, Rejections* rejections, ShapeStore* shapes)
@@ -116,6 +127,7 @@ void Intake::TakeDescription(const v1::Input& input) {
   Simulator* simulator = Claimed(input, At(wire), &wire.simulator_name());
   if (simulator == nullptr) return;
   simulator->time().RecordDescriptions(wire.sequence());
+  if (input.quarantined()) return rejections_.Add(Quarantined(At(wire)));
   const Decoded<detection::AgentDeclaration> decoded = DecodeDescription(wire);
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) return rejections_.Add(*refusal);
   agents_.Describe(simulator, wire, std::get<detection::AgentDeclaration>(decoded));
@@ -129,6 +141,7 @@ void Intake::TakeStates(const v1::Input& input) {
   for (const v1::AgentState& state : chunk.states()) {
     simulator->time().RecordStates(state.sequence());
   }
+  if (input.quarantined()) return rejections_.Add(Quarantined(At(chunk)));
   if (const auto refusal = CheckChunk(chunk)) return rejections_.Add(*refusal);
   if (const auto refusal = sender_clocks_.Check(*simulator, chunk)) {
     return rejections_.Add(*refusal);
@@ -142,6 +155,7 @@ void Intake::TakeClock(const v1::Input& input) {
   if (const auto refusal = CheckIdentity(wire)) return rejections_.Add(*refusal);
   Simulator* simulator = Claimed(input, At(wire), &wire.simulator_name());
   if (simulator == nullptr) return;
+  if (input.quarantined()) return rejections_.Add(Quarantined(At(wire)));
   sender_clocks_.Take(simulator, wire);
   SimulatorTime& time = simulator->time();
   const bool tells_none = wire.clock_ns() == Instant::Always().nanoseconds();
@@ -231,6 +245,10 @@ void Intake::TakeShapePart(const v1::Input& input) {
   const v1::ShapePart& part = input.shape_part();
   Simulator* simulator = Claimed(input, At(part), nullptr);
   if (simulator == nullptr) return;
+  if (input.quarantined()) {
+    rejections_.Add(Quarantined(At(part)));
+    return agent_shapes_.GiveUp(part.content_hash());
+  }
   if (const auto refusal = shapes_.Take(part)) {
     rejections_.Add(*refusal);
     agent_shapes_.GiveUp(part.content_hash());

@@ -39,7 +39,11 @@ v1::CollisionEvent Encode(const detection::CollisionEvent& event, const EndedRun
 }  // namespace
 
 Publisher::Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* bus)
-    : claim_(*claim), demand_(config), bus_(*bus), filter_(config) {}
+    : claim_(*claim),
+      demand_(config),
+      bus_(*bus),
+      filter_(config),
+      earliest_period_ns_(ToNanoseconds(config.earliest_period_s())) {}
 
 v1::ServiceStamp Publisher::NextStamp() {
   v1::ServiceStamp stamp;
@@ -148,12 +152,24 @@ EventCounters Publisher::event_counters() const {
   return counters;
 }
 
-void Publisher::PublishEarliest(const detection::EarliestAnswer& answer, Instant now) {
+bool Publisher::EarliestIsDue(const World& world) {
+  const std::uint32_t readers = bus_.earliest_readers();
+  // A reader that joins has the last sample, which may be old if nobody read it meanwhile.
+  if (readers > earliest_readers_) earliest_.reset();
+  earliest_readers_ = readers;
+  if (readers == 0) return false;
+  return !earliest_ || world.now().nanoseconds() - earliest_now_ns_ >= earliest_period_ns_ ||
+         world.monotonic_ns() - earliest_monotonic_ns_ >= earliest_period_ns_;
+}
+
+void Publisher::PublishEarliest(const detection::EarliestAnswer& answer, const World& world) {
   v1::EarliestIntersection wire = Encode(answer);
+  earliest_now_ns_ = world.now().nanoseconds();
+  earliest_monotonic_ns_ = world.monotonic_ns();
   if (earliest_ && earliest_->SerializeAsString() == wire.SerializeAsString()) return;
   earliest_ = wire;
   wire.set_service_id(claim_.instance());
-  wire.set_now_ns(now.nanoseconds());
+  wire.set_now_ns(earliest_now_ns_);
   *wire.mutable_stamp() = NextStamp();
   v1::Output output;
   *output.mutable_earliest_intersection() = std::move(wire);

@@ -1,6 +1,7 @@
 // Everything that the service publishes, stamped and handed to the bus.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -46,8 +47,12 @@ class Publisher {
   /// of pairs whose event is not over; readers know which of these they have heard.
   void PublishInherited(const World& world);
 
-  /// Publishes the answer if it differs from the last one published.
-  void PublishEarliest(const detection::EarliestAnswer& answer, Instant now);
+  /// Whether somebody reads the earliest intersection and `earliest_period_s` is over since it was
+  /// last published or found unchanged.
+  bool EarliestIsDue(const World& world);
+
+  /// Publishes the answer if it differs from the last one published, or there are new readers.
+  void PublishEarliest(const detection::EarliestAnswer& answer, const World& world);
 
   void PublishRejections(std::vector<v1::Rejection> rejections);
 
@@ -81,7 +86,10 @@ class Publisher {
   EventFilter filter_;
   InheritedEvents inherited_;
   EventCounters events_;
+  const std::int64_t earliest_period_ns_;
+  std::uint32_t earliest_readers_ = 0;
   std::optional<v1::EarliestIntersection> earliest_;
+  std::int64_t earliest_now_ns_ = 0, earliest_monotonic_ns_ = 0;  ///< Of `earliest_`.
 };
 
 }  // namespace collision::server

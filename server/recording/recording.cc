@@ -7,7 +7,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include "server/config/config.h"
 #include "server/process/version.h"
@@ -16,16 +19,39 @@
 namespace collision::server {
 namespace {
 
-constexpr std::uint32_t kRecordingFormat = 1;
+/// From format 2 on a batch may be continued.
+constexpr std::uint32_t kRecordingFormat = 2;
+constexpr std::uint32_t kOldestFormat = 1;
 
 /// A state is some 250 bytes, so that all states of 100,000 agents are below this; a length beyond
 /// it is something else read as one.
 constexpr std::uint64_t kEntryBytesMax = 64 << 20;
 
+/// Of an entry, beside its inputs; and of each input in it: its tag and length.
+constexpr std::uint64_t kEntryOverhead = 64;
+constexpr std::uint64_t kInputOverhead = 8;
+
 /// A varint of a length that may be: at most 7 bits each.
 constexpr int kLengthBytesMax = 5;
 
 }  // namespace
+
+void KeepFormerRecordings(const std::string& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error) || std::filesystem::is_empty(file, error)) {
+    return;
+  }
+  const auto former = [&file](int number) {
+    return number == 0 ? file : file + "." + std::to_string(number);
+  };
+  for (int number = kFormerRecordingsMax; number > 0; --number) {
+    if (!std::filesystem::exists(former(number - 1), error)) continue;
+    std::filesystem::rename(former(number - 1), former(number), error);
+    if (error) {
+      throw std::runtime_error(former(number) + ": cannot be written: " + error.message());
+    }
+  }
+}
 
 RecordingWriter::RecordingWriter(const std::string& path, const v1::Config& config,
                                  const ClaimOptions& claim)
@@ -58,16 +84,45 @@ RecordingWriter::RecordingWriter(const std::string& path, const v1::Config& conf
 RecordingWriter::~RecordingWriter() { close(file_); }
 
 bool RecordingWriter::Record(const v1::RecordedBatch& batch) {
+  if (!error_.empty()) return false;
+  const std::lock_guard lock(writing_);
+  const std::uint64_t begin = offset_;
+  if (WriteParts(batch)) return true;
+  if (ftruncate(file_, static_cast<off_t>(begin)) != 0) {
+    error_ += "; the file ends in the middle of a batch";
+  }
+  return false;
+}
+
+bool RecordingWriter::WriteParts(const v1::RecordedBatch& batch) {
   v1::RecordingEntry entry;
-  *entry.mutable_batch() = batch;
+  std::uint64_t bytes = kEntryOverhead;
+  const auto begin_part = [&] {
+    v1::RecordedBatch& part = *entry.mutable_batch();
+    part.Clear();
+    part.set_wall_ns(batch.wall_ns());
+    part.set_monotonic_ns(batch.monotonic_ns());
+    part.set_wall_was_set(batch.wall_was_set());
+    bytes = kEntryOverhead;
+  };
+  begin_part();
+  for (const v1::Input& input : batch.inputs()) {
+    const std::uint64_t more = input.ByteSizeLong() + kInputOverhead;
+    if (bytes + more > kEntryBytesMax && entry.batch().inputs_size() > 0) {
+      entry.mutable_batch()->set_continued(true);
+      if (!Write(entry)) return false;
+      begin_part();
+    }
+    *entry.mutable_batch()->add_inputs() = input;
+    bytes += more;
+  }
   return Write(entry);
 }
 
 bool RecordingWriter::Write(const v1::RecordingEntry& entry) {
-  if (!error_.empty()) return false;
   const std::string where = path_ + ": byte " + std::to_string(offset_) + ": ";
   if (entry.ByteSizeLong() > kEntryBytesMax) {
-    error_ = where + "a batch of more than " + std::to_string(kEntryBytesMax) + " bytes";
+    error_ = where + "an input of more than " + std::to_string(kEntryBytesMax) + " bytes";
     return false;
   }
   std::string bytes;
@@ -75,7 +130,6 @@ bool RecordingWriter::Write(const v1::RecordingEntry& entry) {
     google::protobuf::io::StringOutputStream stream(&bytes);
     google::protobuf::util::SerializeDelimitedToZeroCopyStream(entry, &stream);
   }
-  const std::lock_guard lock(writing_);
   if (const int error_number = WriteAll(file_, bytes)) {
     error_ = where + "cannot be written: " + CauseOf(error_number);
     return false;
@@ -93,9 +147,11 @@ RecordingReader::RecordingReader(const std::string& path)
   }
   if (!entry.has_header())
     throw std::runtime_error(path + ": byte 0: not a recording: it has no header");
-  if (const std::uint32_t format = entry.header().format(); format != kRecordingFormat) {
+  const std::uint32_t format = entry.header().format();
+  if (format < kOldestFormat || format > kRecordingFormat) {
     throw std::runtime_error(path + ": byte 0: format " + std::to_string(format) +
-                             "; this program reads format " + std::to_string(kRecordingFormat));
+                             "; this program reads formats " + std::to_string(kOldestFormat) +
+                             " to " + std::to_string(kRecordingFormat));
   }
   if (!entry.header().has_config()) {
     throw std::runtime_error(path + ": byte 0: the configuration is missing");
@@ -127,6 +183,20 @@ RecordingReader::RecordingReader(const std::string& path)
 }
 
 std::optional<v1::RecordedBatch> RecordingReader::Next() {
+  std::optional<v1::RecordedBatch> batch = NextPart();
+  while (batch && batch->continued()) {
+    std::optional<v1::RecordedBatch> part = NextPart();
+    if (!part) {
+      if (error_.empty()) Fail("cut off");
+      return {};
+    }
+    for (v1::Input& input : *part->mutable_inputs()) *batch->add_inputs() = std::move(input);
+    batch->set_continued(part->continued());
+  }
+  return batch;
+}
+
+std::optional<v1::RecordedBatch> RecordingReader::NextPart() {
   v1::RecordingEntry entry;
   const std::uint64_t begin = offset_;
   if (!error_.empty() || !ReadEntry(&entry)) return {};

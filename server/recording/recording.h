@@ -17,17 +17,29 @@ class BatchSink {
  public:
   virtual ~BatchSink() = default;
 
-  /// Keeps a batch before it is applied. False: it could not be kept, and the daemon ends without
-  /// applying it, so that nothing is published which the recording does not explain.
+  /// Keeps a batch before it is applied. False: it could not be kept, nor will any later one; the
+  /// daemon ends without applying it, or goes on unrecorded (on_recording_failure).
   [[nodiscard]] virtual bool Record(const v1::RecordedBatch& batch) = 0;
+
+  /// One line on why Record() failed. Empty while all is well.
+  virtual std::string error() const = 0;
 };
 
-/// Writes a recording to a file: a header with the complete configuration, then one entry per
-/// batch, each a delimited protobuf message of at most 64 MiB (idl/recording.proto).
+/// Former recordings that are kept beside a new one of the same name.
+inline constexpr int kFormerRecordingsMax = 3;
+
+/// Renames a recording to FILE.1, after FILE.1 to FILE.2 and so on; the oldest is replaced. Does
+/// nothing where FILE is no regular file, or an empty one. Throws std::runtime_error if it cannot.
+void KeepFormerRecordings(const std::string& file);
+
+/// Writes a recording to a file: a header with the complete configuration, then the batches, each
+/// as one entry or, beyond 64 MiB, as several, of which all but the last are `continued`
+/// (idl/recording.proto). Entries are delimited protobuf messages.
 ///
 /// Each batch has been handed to the operating system when Record() returns: a crash of the daemon
 /// loses nothing, a crash of the machine at most its page cache. The file needs no closing entry;
-/// it is whole after every batch. One thread, except for HoldWrites().
+/// it is whole after every batch. A batch that cannot be written is taken off the end of the file.
+/// One thread, except for HoldWrites().
 class RecordingWriter final : public BatchSink {
  public:
   /// Replaces the file and writes the header; `config` is complete. Throws std::runtime_error if it
@@ -40,8 +52,8 @@ class RecordingWriter final : public BatchSink {
 
   [[nodiscard]] bool Record(const v1::RecordedBatch& batch) override;
 
-  /// One line on why Record() failed: file, offset, cause. Empty while all is well.
-  const std::string& error() const { return error_; }
+  /// File, offset, cause.
+  std::string error() const override { return error_; }
 
   /// Waits for a write in progress; while the lock is held none begins. For a thread that is about
   /// to end the process: the file then ends with a whole batch. Any thread.
@@ -49,6 +61,7 @@ class RecordingWriter final : public BatchSink {
 
  private:
   bool Write(const v1::RecordingEntry& entry);
+  bool WriteParts(const v1::RecordedBatch& batch);
 
   std::mutex writing_;
   std::string path_;
@@ -70,14 +83,15 @@ class RecordingReader {
   /// Likewise.
   const ClaimOptions& claim() const { return claim_; }
 
-  /// The next batch; nothing at the end and at the first entry that is cut off or damaged: see
-  /// error().
+  /// The next batch, whole; nothing at the end and at the first entry that is cut off or damaged:
+  /// see error().
   std::optional<v1::RecordedBatch> Next();
 
   /// One line with file, byte offset and cause. Empty while all is well.
   const std::string& error() const { return error_; }
 
  private:
+  std::optional<v1::RecordedBatch> NextPart();
   bool ReadEntry(v1::RecordingEntry* entry);
   bool ReadLength(std::uint64_t* length);
   bool Fail(const std::string& what);

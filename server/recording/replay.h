@@ -30,6 +30,7 @@ class ReplaySource final : public Bus, public Clock {
   void Flush() override {}
   void Wake() override {}
   bool recorded() const override { return true; }
+  std::uint32_t earliest_readers() const override { return 0; }
 
   /// The times of the last batch handed out; before that, those of the first.
   ClockReading Read() override { return now_; }

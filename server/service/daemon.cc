@@ -18,6 +18,7 @@
 #include "server/publish/reports.h"
 #include "server/publish/status.h"
 #include "server/recording/recording.h"
+#include "server/service/detector_options.h"
 #include "server/service/operator_commands.h"
 #include "server/service/roster_journal.h"
 #include "server/service/silence_report.h"
@@ -48,30 +49,9 @@ OtherPhase PhaseOf(const v1::ServiceHeard& heard) {
   }
 }
 
-/// A recording from before the field has none set.
-broad_phase::BroadPhaseMethod MethodOf(v1::Config::BroadPhase method) {
-  switch (method) {
-    case v1::Config::ALL_PAIRS:
-      return broad_phase::BroadPhaseMethod::kAllPairs;
-    case v1::Config::SPATIAL_INDEX:
-      return broad_phase::BroadPhaseMethod::kSpatialIndex;
-    default:
-      return broad_phase::BroadPhaseMethod::kAuto;
-  }
-}
-
-detection::DetectorOptions OptionsOf(const v1::Config& config) {
-  return {.temporal_resolution = config.temporal_resolution_s(),
-          .announce_within = config.announce_within_s(),
-          .skew = config.clock().skew_max_s(),
-          .agents_max = config.agents_max(),
-          .pairs_max = config.pairs_max(),
-          .pairs_per_agent_max = config.pairs_per_agent_max(),
-          .history_max = config.history_max(),
-          .work_units_per_evaluation = WorkUnitsPerEvaluation(config),
-          .work_units_per_step = WorkUnitsPerStep(config),
-          .broad_phase = MethodOf(config.broad_phase())};
-}
+/// Queries for one answer about the earliest intersection, some 5 us each: all that an exact answer
+/// needs, unless agents or pairs by the dozen are about equally near.
+constexpr std::size_t kEarliestQueriesMax = 64;
 
 }  // namespace
 
@@ -84,6 +64,7 @@ class Daemon::Implementation {
         recorder_(parts.recorder),
         journal_(config_, parts.journal),
         open_journal_(std::move(parts.open_journal)),
+        quarantine_(parts.quarantine),
         state_failure_(parts.state_failure),
         claim_(parts.claim),
         shape_builder_(parts.shape_builder
@@ -91,7 +72,7 @@ class Daemon::Implementation {
                            : std::make_unique<InlineShapeBuilder>(BuildOptionsOf(config_))),
         world_(config_, parts.claim.roster),
         shapes_(config_, shape_builder_.get(), &world_.quotas()),
-        detector_(OptionsOf(config_)),
+        detector_(DetectorOptionsOf(config_)),
         rejections_(config_.rejections_per_second_max(), &world_),
         intake_(config_, claim_.instance(), &world_, &detector_, &rejections_, &shapes_),
         operators_(&world_, &intake_),
@@ -103,10 +84,29 @@ class Daemon::Implementation {
   bool Step() {
     std::vector<v1::Input> inputs;
     const std::int64_t before_ns = world_.monotonic_ns();
-    const bool goes_on = bus_.Receive(Timeout(), config_.inputs_per_batch_max(), &inputs);
+    const bool waits = quarantine_ != nullptr && quarantine_->holds();
+    const bool goes_on = waits || bus_.Receive(Timeout(), config_.inputs_per_batch_max(), &inputs);
     if (stopped_ || (!goes_on && inputs.empty())) return false;
     if (!bus_.recorded()) AddReadyShapes(&inputs);
+    if (quarantine_ != nullptr) quarantine_->Screen(&inputs);
     SortBatch(&inputs);
+    if (quarantine_ != nullptr) quarantine_->BeginStep();
+    const bool ends = !Apply(before_ns, std::move(inputs));
+    if (quarantine_ != nullptr) quarantine_->EndStep();
+    return goes_on && !ends;
+  }
+
+  void Stop() {
+    stopped_ = true;
+    bus_.Wake();
+  }
+
+  const ServiceClaim& claim() const { return claim_; }
+  const EventLog& event_log() const { return publisher_.event_log(); }
+
+ private:
+  /// The step after its batch was received. False: the service is to end.
+  bool Apply(std::int64_t before_ns, std::vector<v1::Input> inputs) {
     if (!Begin(clock_.Read(), &inputs)) return false;
     // Otherwise there is a step for each status at least.
     const std::int64_t gap_ns = world_.monotonic_ns() - before_ns;
@@ -114,7 +114,11 @@ class Daemon::Implementation {
     if (gap_ns > Standstill()) claim_.WakeUp(world_.monotonic_ns());
     if (!Claim(inputs)) return false;
     if (clock_step_) FollowStep(*clock_step_);
-    for (const v1::Input& input : inputs) Apply(input);
+    for (const v1::Input& input : inputs) {
+      if (quarantine_ != nullptr) quarantine_->Apply(input);
+      Apply(input);
+    }
+    if (quarantine_ != nullptr) quarantine_->EndMessages();
     batch_was_full_ = IsFull(inputs);
     held_inputs_ =
         batch_was_full_ && held_inputs_ < kHeldInputsMax ? held_inputs_ + inputs.size() : 0;
@@ -139,18 +143,9 @@ class Daemon::Implementation {
 #ifndef NDEBUG
     world_.Validate();
 #endif
-    return goes_on;
+    return true;
   }
 
-  void Stop() {
-    stopped_ = true;
-    bus_.Wake();
-  }
-
-  const ServiceClaim& claim() const { return claim_; }
-  const EventLog& event_log() const { return publisher_.event_log(); }
-
- private:
   /// When a tree is finished depends on the machine; the step from which on it counts becomes an
   /// input like any other.
   void AddReadyShapes(std::vector<v1::Input>* inputs) {
@@ -165,6 +160,8 @@ class Daemon::Implementation {
   /// clock may have come with the newest of the states that it counts while older ones of other
   /// agents still wait: no clock comes into force then.
   bool IsFull(const std::vector<v1::Input>& inputs) const {
+    // What comes with a suspected message follows it.
+    if (!inputs.empty() && inputs.front().suspected()) return true;
     const auto received = std::count_if(inputs.begin(), inputs.end(), [](const v1::Input& input) {
       return !input.has_shape_ready();
     });
@@ -197,12 +194,13 @@ class Daemon::Implementation {
   /// A service that stands still for so long [ns] may be replaced before it has noticed it.
   std::int64_t Standstill() const { return ToNanoseconds(config_.lease_s()) / 2; }
 
-  /// Takes the time of this step and records what it applies. False: it could not be recorded.
+  /// Takes the time of this step and records what it applies. False: it could not be recorded, and
+  /// that is to end the service.
   bool Begin(const ClockReading& reading, std::vector<v1::Input>* inputs) {
     clock_step_ = world_.SetReading(reading);
     ++steps_.batches;
     steps_.inputs += inputs->size();
-    if (recorder_ == nullptr) return true;
+    if (recorder_ == nullptr || !recording_failure_.empty()) return true;
     v1::RecordedBatch batch;
     batch.set_wall_ns(reading.wall_ns);
     batch.set_monotonic_ns(reading.monotonic_ns);
@@ -212,7 +210,15 @@ class Daemon::Implementation {
     for (std::size_t i = 0; i < inputs->size(); ++i) {
       (*inputs)[i] = std::move(*batch.mutable_inputs(static_cast<int>(i)));
     }
-    return kept;
+    return kept || EndRecording();
+  }
+
+  /// Nothing more can be recorded. False: the service is to end (on_recording_failure).
+  bool EndRecording() {
+    recording_failure_ = recorder_->error();
+    spdlog::error("{}; nothing more is recorded", recording_failure_);
+    schedule_.Hasten();
+    return config_.on_recording_failure() != v1::Config::END;
   }
 
   /// Takes what other services say of themselves. False: one of them has the world.
@@ -350,7 +356,7 @@ class Daemon::Implementation {
         fmt::format("epoch {} ends at {} s: {}", world_.epoch(),
                     1e-9 * static_cast<double>(world_.now().nanoseconds()), why));
     past_ += detector_.counters();
-    detector_ = detection::Detector(OptionsOf(config_));
+    detector_ = detection::Detector(DetectorOptionsOf(config_));
     advanced_to_.reset();
     later_.Clear();
     world_.BeginEpoch();
@@ -431,12 +437,14 @@ class Daemon::Implementation {
       return publisher_.NoteEvents(detector_.events(), world_);
     }
     publisher_.PublishEvents(detector_.events(), world_);
-    publisher_.PublishEarliest(detector_.Earliest(), world_.now());
   }
 
   /// Publishes what does not come from the detector alone. Events have left before the clearances,
   /// and with them the grants, of the same step.
   void PublishAnswers() {
+    if (advanced_to_ && publisher_.EarliestIsDue(world_)) {
+      publisher_.PublishEarliest(detector_.Earliest(kEarliestQueriesMax), world_);
+    }
     publisher_.PublishRejections(rejections_.Take());
     publisher_.PublishClearances(&world_);
     if (world_.AcknowledgeRevisions()) publisher_.PublishClearances(&world_);
@@ -468,11 +476,15 @@ class Daemon::Implementation {
     std::vector<v1::KeyValue> extensions;
     silence_report_.AddExtensions(&extensions);
     operators_.AddExtensions(&extensions);
-    if (!state_failure_.empty()) {
+    const auto add = [&extensions](const char* key, const std::string& what) {
+      if (what.empty()) return;
       v1::KeyValue& failure = extensions.emplace_back();
-      failure.set_key("state_failure");
-      failure.set_value(state_failure_.substr(0, wire::kExtensionValueMax));
-    }
+      failure.set_key(key);
+      failure.set_value(what.substr(0, wire::kExtensionValueMax));
+    };
+    add("state_failure", state_failure_);
+    add("recording_failure", recording_failure_);
+    if (quarantine_ != nullptr) add("quarantine", quarantine_->Summary());
     return extensions;
   }
 
@@ -482,7 +494,9 @@ class Daemon::Implementation {
   BatchSink* const recorder_;
   RosterJournal journal_;
   std::function<Journal*()> open_journal_;
-  std::string state_failure_;  ///< Empty: what must be kept is kept.
+  Quarantine* const quarantine_;   ///< Null: none.
+  std::string state_failure_;      ///< Empty: what must be kept is kept.
+  std::string recording_failure_;  ///< Empty: what is to be recorded is.
   ServiceClaim claim_;
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   World world_;

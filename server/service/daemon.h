@@ -9,6 +9,7 @@
 #include "server/bus/bus.h"
 #include "server/bus/clock.h"
 #include "server/claim/journal.h"
+#include "server/claim/quarantine.h"
 #include "server/claim/service_claim.h"
 #include "server/publish/event_log.h"
 #include "server/shapes/shape_builder.h"
@@ -26,17 +27,18 @@ struct DaemonParts {
   /// Opens the journal when this service takes over, if another one has it until then; null: it
   /// cannot be opened, which was logged.
   std::function<Journal*()> open_journal = nullptr;
-  std::string state_failure = {};  ///< Why there is no journal, if one was wanted.
-  ClaimOptions claim = {};         ///< By default it serves from the first step.
+  Quarantine* quarantine = nullptr;  ///< Notes which message is applied, for the next start.
+  std::string state_failure = {};    ///< Why there is no journal, if one was wanted.
+  ClaimOptions claim = {};           ///< By default it serves from the first step.
 };
 
 /// Owns the parts of the service and runs them in steps, on one thread. A step
 ///  1. waits until messages have arrived or something is due, and reads the clock;
 ///  2. sorts the batch and records it: times and inputs, as they will be applied;
 ///  3. applies each input: the codec validates it, world, shapes and detector take it;
-///  4. advances the detector to now; publishes events, the earliest intersection, rejections,
-///     clearances, and the status every `status_period_s` or when simulators come and go; flushes
-///     the bus.
+///  4. advances the detector to now; publishes events, the earliest intersection (for its readers),
+///     rejections, clearances, and the status every `status_period_s` or when simulators come and
+///     go; flushes the bus.
 /// Nothing else reads a clock or the network, so the same batches with the same clock readings give
 /// the same event log, bit for bit.
 ///
@@ -53,8 +55,9 @@ class Daemon {
   Daemon(const v1::Config& config, Bus& bus, Clock& clock, DaemonParts parts = {});
   ~Daemon();
 
-  /// Runs one step. False: the bus has ended, Stop() was called, the batch could not be recorded,
-  /// another service has the world, or the journal cannot be written (on_state_failure END).
+  /// Runs one step. False: the bus has ended, Stop() was called, another service has the world, or
+  /// the batch cannot be recorded (on_recording_failure END) or the journal not be written
+  /// (on_state_failure END).
   bool Step();
 
   /// Makes Step() return false soon. Any thread.

@@ -33,8 +33,9 @@ Exit codes:
   69  DDS is not available
   70  a check has failed: a bug in collisiond, which the log describes
   71  memory, or another resource of the system, is exhausted
-  74  a file or folder cannot be written or read, or is damaged: a recording, the journal in
-      state_dir (with on_state_failure END), log_file, tree_cache_dir
+  74  a file or folder cannot be written or read, or is damaged: a recording (later than at the
+      start with on_recording_failure END), the journal in state_dir (with on_state_failure END),
+      log_file, tree_cache_dir
   75  another service has the world
   78  the configuration is wrong, or its file cannot be read)";
 
@@ -79,7 +80,8 @@ void Define(CLI::App* app, Options* options) {
   app->add_option("--log-level", options->log_level, "Log level, instead of the configured one")
       ->check(AllowedBy("log_level"));
   auto* record = app->add_option("--record", options->record_file,
-                                 "Write every input to FILE, which is replaced");
+                                 "Write every input to FILE; a former FILE is kept as FILE.1, "
+                                 "up to FILE.3");
   auto* replay =
       app->add_option("--replay", options->replay_file,
                       "Repeat a recorded run without DDS, with its own configuration; prints each "

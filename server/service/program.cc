@@ -115,6 +115,19 @@ dds::SenderLimits SenderLimitsOf(const v1::Config& config) {
           .waiting_bytes_max = config.waiting_mb_max() * std::size_t{1'000'000}};
 }
 
+/// Null: there is no folder for it, or no room: the service goes on without. Requires the lock of
+/// the journal.
+std::unique_ptr<Quarantine> OpenQuarantine(const v1::Config& config, const Journal* journal) {
+  if (journal == nullptr) return nullptr;
+  try {
+    return std::make_unique<Quarantine>(config.state_dir(), config.world(), config.domain());
+  } catch (const std::runtime_error& error) {
+    spdlog::warn("{}; a message that fails the service is not recognised at the next start",
+                 error.what());
+    return nullptr;
+  }
+}
+
 /// An id that no other service has: of two random ones, equal with probability 2^-64.
 std::uint64_t DrawInstance() {
   std::random_device source;
@@ -147,6 +160,7 @@ int Serve(const v1::Config& config, const std::string& record_file) {
   } catch (const std::runtime_error& error) {
     return Fail(kExitFile, std::string("state_dir: ") + error.what());
   }
+  const std::unique_ptr<Quarantine> quarantine = OpenQuarantine(config, journal.get());
   ClaimOptions claim = {.instance = DrawInstance(),
                         .term_before = journal ? journal->term() : 0,
                         .wait_ns = ToNanoseconds(config.claim_wait_s()),
@@ -159,6 +173,7 @@ int Serve(const v1::Config& config, const std::string& record_file) {
   std::unique_ptr<RecordingWriter> recorder;
   try {
     if (!record_file.empty()) {
+      KeepFormerRecordings(record_file);
       recorder = std::make_unique<RecordingWriter>(record_file, config, claim);
     }
   } catch (const std::runtime_error& error) {
@@ -177,6 +192,7 @@ int Serve(const v1::Config& config, const std::string& record_file) {
                 .trees = std::move(cache),
                 .journal = journal.get(),
                 .open_journal = std::move(open_journal),
+                .quarantine = quarantine.get(),
                 .state_failure = std::move(state_failure),
                 .claim = claim});
 }

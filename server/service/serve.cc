@@ -87,6 +87,7 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
        .shape_builder = std::make_unique<ThreadedShapeBuilder>(build, [&bus] { bus.Wake(); }),
        .journal = parts.journal,
        .open_journal = std::move(parts.open_journal),
+       .quarantine = parts.quarantine,
        .state_failure = parts.state_failure,
        .claim = parts.claim});
   const StopSignalWatcher signals([&daemon] { daemon.Stop(); }, kStepPatience,
@@ -109,7 +110,11 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   }
   service_manager.Stopping();
   LogFingerprint(daemon.event_log());
-  if (recorder && !recorder->error().empty()) return Fail(kExitFile, recorder->error());
+  const bool needs_recording = config.on_recording_failure() == v1::Config::END;
+  if (needs_recording && recorder && !recorder->error().empty()) {
+    return Fail(kExitFile, recorder->error() +
+                               " (on_recording_failure is END; GO_ON serves without a recording)");
+  }
   const bool ends = config.on_state_failure() == v1::Config::END;
   if (ends && parts.journal != nullptr && !parts.journal->error().empty()) {
     return Fail(kExitFile, "state_dir: " + parts.journal->error() + kGoOnInstead);

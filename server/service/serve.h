@@ -8,6 +8,7 @@
 #include "idl/config.pb.h"
 #include "server/bus/bus.h"
 #include "server/claim/journal.h"
+#include "server/claim/quarantine.h"
 #include "server/claim/service_claim.h"
 #include "server/publish/event_log.h"
 #include "server/recording/recording.h"
@@ -26,7 +27,8 @@ struct ServiceParts {
   std::shared_ptr<TreeStore> trees = nullptr;
   Journal* journal = nullptr;
   std::function<Journal*()> open_journal = nullptr;  ///< As in DaemonParts.
-  std::string state_failure = {};                    ///< As in DaemonParts.
+  Quarantine* quarantine = nullptr;
+  std::string state_failure = {};  ///< As in DaemonParts.
   ClaimOptions claim = {};
 };
 

@@ -26,6 +26,7 @@ class ScriptedBus final : public Bus, public Clock {
   void Publish(const v1::Output& output) override { outputs.push_back(output); }
   void Flush() override { ++flushes; }
   void Wake() override { woken = true; }
+  std::uint32_t earliest_readers() const override { return earliest_read_by; }
   std::vector<v1::Counter> network_counters() const override { return counters; }
   ClockReading Read() override {
     return {.wall_ns = wall_ns,
@@ -46,6 +47,7 @@ class ScriptedBus final : public Bus, public Clock {
   std::int64_t monotonic_ns = 0;
   bool wall_was_set = false;  ///< What the next reading says.
   std::int64_t timeout_ns = -1;
+  std::uint32_t earliest_read_by = 1;
   int flushes = 0;
   bool ended = false;
   bool woken = false;

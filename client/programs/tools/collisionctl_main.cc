@@ -135,7 +135,14 @@ int Run(const std::string& command, const Options& options) {
               << options.monitor.domain << " within " << options.timeout_s << " s\n";
     return kExitUnavailable;
   }
-  Gather(&monitor, deadline, [&view] { return view.knows_all_agents(); });
+  // The earliest intersection is computed for its readers: the last sample may be of long ago.
+  const bool awaits_earliest = command == "earliest" && view.status()->phase() == v1::PHASE_SERVING;
+  const std::int64_t since_ns = view.status()->now_ns();
+  Gather(&monitor, deadline, [&] {
+    if (awaits_earliest && !(view.earliest() && view.earliest()->now_ns() >= since_ns))
+      return false;
+    return view.knows_all_agents();
+  });
   if (options.follow) {
     Follow(&monitor, &view, options.json);
   } else {

@@ -7,11 +7,13 @@
 namespace collision::detection {
 
 /// The earliest possible intersection over all pairs of agents that are not in contact; of equal
-/// ones that of the lowest ids.
+/// ones that of the lowest ids. Where the search was cut short (Detector::Earliest()), a certified
+/// lower bound of it.
 struct EarliestAnswer {
   bool found = false;
   Instant earliest = Instant::Never();
-  AgentId lower;  ///< Equal to `higher` for a saturated agent whose partner has left.
+  AgentId lower;  ///< Equal to `higher` where one agent is known, but not its partner: saturated,
+                  ///< or cut short.
   AgentId higher;
 };
 

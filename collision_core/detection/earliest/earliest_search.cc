@@ -31,6 +31,7 @@ constexpr Instant kEarliestBound = Instant::FromNanoseconds(Instant::Always().na
 struct EarliestSearch::Run {
   const AgentTable& agents;
   Instant now;
+  std::size_t queries_left;
   EarliestAnswer best{};
   std::vector<Taken<PairSlot>> pairs{};
   std::vector<Taken<AgentIndex>> taken{};
@@ -47,6 +48,10 @@ struct EarliestSearch::Run {
 
   /// What has a later lower bound does not better the best answer.
   Instant Limit() const { return MeetsBy(now, best.earliest); }
+
+  void CountQuery() {
+    if (queries_left > 0) --queries_left;
+  }
 
   template <typename IndexType>
   bool MayBetter(const EventQueue<IndexType>& queue) const {
@@ -66,9 +71,9 @@ EarliestSearch::EarliestSearch(const DetectorContext& context, TrackedPairs* pai
       next_(clearances->broad_phase(), coverage_.tiers(), context.clock),
       uncovered_(context, coverage_, clearances->broad_phase(), clearances->former()) {}
 
-EarliestAnswer EarliestSearch::Find() {
+EarliestAnswer EarliestSearch::Find(std::size_t queries_max) {
   TakeChanges();
-  Run run{.agents = context_.agents, .now = context_.clock.now};
+  Run run{.agents = context_.agents, .now = context_.clock.now, .queries_left = queries_max};
   OfferSaturated(&run);
   OfferPairs(&run);
   OfferAgents(&run);
@@ -120,6 +125,9 @@ void EarliestSearch::OfferPairs(Run* run) {
       pair_bounds_.Set(slot, LowerBoundOf(pairs_[slot]));
       continue;
     }
+    if (!known && run->queries_left == 0) {
+      return run->Offer(pairs_[slot].lower, pairs_[slot].higher, std::max(run->now, bound));
+    }
     pair_bounds_.Remove(slot);
     run->pairs.push_back({slot, bound});
     OfferPair(slot, run);
@@ -133,7 +141,7 @@ void EarliestSearch::OfferPair(PairSlot slot, Run* run) {
   PairLowerBound& answer = pair_answers_.at(slot);
   if (answer.canonical_step != step) {
     const bool known = pair.canonical_step == step;
-    answer = {step, known ? pair.canonical : Canonical(pair.lower, pair.higher)};
+    answer = {step, known ? pair.canonical : Canonical(pair.lower, pair.higher, run)};
   }
   // A contact may begin and end before states that lie ahead.
   if (!pair.ahead_from.is_never() && pair.ahead_until > run->now) {
@@ -177,9 +185,10 @@ void EarliestSearch::OfferAgents(Run* run) {
       agent_bounds_.Set(agent, std::max(kEarliestBound, record.keys.earliest()));
       continue;
     }
+    if (!saturated && run->queries_left == 0) return OfferBound(agent, bound, run);
     if (!saturated && bound != Instant::Always() &&
         agents_[agent].computed_step != context_.clock.step) {
-      ComputeBound(agent);
+      ComputeBound(agent, run);
       continue;
     }
     agent_bounds_.Remove(agent);
@@ -196,6 +205,17 @@ bool EarliestSearch::IsUncovered(AgentIndex agent) const {
   return record.renewed_from || record.keys.earliest() < context_.agents[agent].stamp();
 }
 
+// After a step, only an agent that is uncovered may meet one that it is not tracked with by
+// announce_until.
+void EarliestSearch::OfferBound(AgentIndex agent, Instant bound, Run* run) const {
+  const AgentTable& agents = context_.agents;
+  const AgentIndex next = agents_[agent].next_partner;
+  if (bound == Instant::Always()) return run->Offer(agent, agent, run->now);
+  const bool known = next != agent && agents.Contains(next) && !agents[next].expired &&
+                     queries_.MayMeet(agent, next);
+  run->Offer(agent, known ? next : agent, std::max(context_.clock.announce_until(), bound));
+}
+
 void EarliestSearch::OfferUncovered(AgentIndex agent, Run* run) {
   const AgentCoverage& record = coverage_[agent];
   agents_[agent].next_partner = record.next_partner;
@@ -210,14 +230,15 @@ void EarliestSearch::OfferUncovered(AgentIndex agent, Run* run) {
                        .tracked = &tracked});
   for (const UncoveredPartner& partner : partners) {
     const Instant free_until = std::max(run->now, partner.free_until);
-    const Instant canonical = Canonical(agent, partner.partner);
+    const Instant canonical = Canonical(agent, partner.partner, run);
     run->Offer(agent, partner.partner, std::min(canonical, free_until));
   }
 }
 
 // All untracked partners that may be met by announce_until were tracked in the last step.
-void EarliestSearch::ComputeBound(AgentIndex agent) {
+void EarliestSearch::ComputeBound(AgentIndex agent, Run* run) {
   ++context_.counters->queries;
+  run->CountQuery();
   PartnerMarks& tracked = TrackedWith(agent);
   const Instant now = context_.clock.now;
   const NextNeighbour next =
@@ -238,10 +259,15 @@ void EarliestSearch::OfferPartners(AgentIndex agent, Instant bound, Run* run) {
   const AgentTable& agents = context_.agents;
   const AgentIndex next = agents_[agent].next_partner;
   if (next != agent && agents.Contains(next) && !agents[next].expired && !tracked.Contains(next)) {
-    run->Offer(agent, next, Canonical(agent, next));
+    run->Offer(agent, next, Canonical(agent, next, run));
   }
   if (!run->best.found) OfferNeighbours(agent, {run->now, bound, Instant::Never()}, tracked, run);
   OfferNeighbours(agent, {run->now, run->Limit(), run->Limit()}, tracked, run);
+}
+
+Instant EarliestSearch::Canonical(AgentIndex a, AgentIndex b, Run* run) const {
+  run->CountQuery();
+  return queries_.EarliestOf(a, b, context_.clock.now);
 }
 
 void EarliestSearch::OfferNeighbours(AgentIndex agent, const broad_phase::NeighbourWindow& window,
@@ -253,7 +279,7 @@ void EarliestSearch::OfferNeighbours(AgentIndex agent, const broad_phase::Neighb
   broad_phase_->FindNeighbours(agent.value(), window, skip, &found_memory_);
   for (const broad_phase::Neighbour& neighbour : found_memory_) {
     const AgentIndex partner(neighbour.partner);
-    run->Offer(agent, partner, Canonical(agent, partner));
+    run->Offer(agent, partner, Canonical(agent, partner, run));
   }
 }
 

@@ -1,6 +1,7 @@
 // The search for the earliest possible intersection over all agents.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -35,14 +36,19 @@ namespace collision::detection {
 /// agent's bound stays unknown.
 ///
 /// What is remembered is a cache of its own: keys, pairs, events and clearances do not depend on
-/// whether the search is ever called. In a perfect lattice all pairs tie, and each call costs O(N).
+/// whether the search is ever called.
+///
+/// In a lattice all agents tie, and an exact answer costs O(N). A call with a limit ends the search
+/// after so many queries; the first bound left in a queue is then offered as it is, since all
+/// others in that queue are later.
 class EarliestSearch {
  public:
   /// All outlive the search.
   EarliestSearch(const DetectorContext& context, TrackedPairs* pairs, Clearances* clearances);
 
-  /// As of the last step.
-  EarliestAnswer Find();
+  /// As of the last step. After `queries_max` queries no other agent or pair is queried; one more
+  /// may be under way.
+  EarliestAnswer Find(std::size_t queries_max);
 
   void Validate() const;
 
@@ -70,16 +76,16 @@ class EarliestSearch {
   Instant LowerBoundOf(const PairRecord& pair) const;
   void OfferAgents(Run* run);
   bool IsUncovered(AgentIndex agent) const;
+  /// Offers the agent's bound in place of what a query would find.
+  void OfferBound(AgentIndex agent, Instant bound, Run* run) const;
   void OfferUncovered(AgentIndex agent, Run* run);
-  void ComputeBound(AgentIndex agent);
+  void ComputeBound(AgentIndex agent, Run* run);
   /// Marks the partners with which the agent is tracked; valid until the next call.
   PartnerMarks& TrackedWith(AgentIndex agent);
   void OfferPartners(AgentIndex agent, Instant bound, Run* run);
   void OfferNeighbours(AgentIndex agent, const broad_phase::NeighbourWindow& window,
                        const PartnerMarks& tracked, Run* run);
-  Instant Canonical(AgentIndex a, AgentIndex b) const {
-    return queries_.EarliestOf(a, b, context_.clock.now);
-  }
+  Instant Canonical(AgentIndex a, AgentIndex b, Run* run) const;
 
   const DetectorContext context_;
   const PairQueries queries_;

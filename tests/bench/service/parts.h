@@ -32,6 +32,10 @@ struct ServiceReport : RowReport<ServiceRow> {
 /// that answers at once without a thought.
 void LatencyPart(const ServiceSettings& settings, ServiceReport* report);
 
+/// What a step costs that also asks for the earliest possible intersection, in a lattice of agents
+/// at rest and in a jittered one.
+void AtRestPart(const ServiceSettings& settings, ServiceReport* report);
+
 /// How many states a simulator sends on demand, of those that a stream would send.
 void MessagesPart(const ServiceSettings& settings, ServiceReport* report);
 

@@ -13,6 +13,9 @@ std::vector<std::string> FigureNames() {
       names.push_back(std::string(name) + agents);
     }
   }
+  for (const char* agents : {"1000", "10000"}) {
+    names.push_back(std::string("lattice_step_ratio_") + agents);
+  }
   return names;
 }
 

@@ -6,6 +6,9 @@
 // - messages: states that a swarm sends on demand, as a ratio of those of a 60 Hz stream; M,
 //   distance and speed each varied by itself. Client library and daemon run in one process, answers
 //   come at once, and the first second does not count.
+// - at-rest: a step in which all agents tell that they rest, and every sixth asks for the earliest
+//   possible intersection as the daemon does; a lattice, in which all tie, beside a jittered one.
+//   The detector alone.
 // - "network" is a process with the same DdsBus and no detector: it answers each chunk at once with
 //   a clearance and each jump with an event. "ours" is the daemon on the wall clock. The same
 //   simulator measures one after the other in the same run, over DDS on loopback, with the same
@@ -34,6 +37,7 @@ int main(int count, char** arguments) {
   CLI11_PARSE(app, count, arguments);
   if (!contestant.empty()) return Serve(contestant, world, settings.domain);
   ServiceReport report;
+  AtRestPart(settings, &report);
   MessagesPart(settings, &report);
   LatencyPart(settings, &report);
   return Finish(report, settings.json);

@@ -328,7 +328,7 @@ std::string RandomValue(const ConfigOption& option, Random& random) {
   if (option.path == "tree_builder") return random.Chance(0.5) ? "MEDIAN_SPLIT" : "FITTED";
   const bool needs_others = !option.only_with.empty() || option.path == "clock.release_after_s";
   if (needs_others && random.Chance(0.9)) return std::string(option.value);
-  if (option.path == "on_state_failure") return random.Chance(0.5) ? "GO_ON" : "END";
+  if (option.path.ends_with("_failure")) return random.Chance(0.5) ? "GO_ON" : "END";
   if (option.least.empty()) return "RELEASE";
   const double least = std::max(std::stod(std::string(option.least)), 1e-6);
   const double most = std::min(std::stod(std::string(option.most)), 1e15);

@@ -82,14 +82,47 @@ TEST(Publisher, AnEarliestAnswerIsPublishedOnceUntilItChanges) {
   ScriptedBus bus;
   const ServiceClaim claim = Claimed();
   Publisher publisher(Config(), &claim, &bus);
-  publisher.PublishEarliest({}, At(1));
-  publisher.PublishEarliest({}, At(2));
+  OneSimulator one;
+  one.world.MoveTo(At(1));
+  publisher.PublishEarliest({}, one.world);
+  one.world.MoveTo(At(2));
+  publisher.PublishEarliest({}, one.world);
   ASSERT_EQ(bus.outputs.size(), 1u);
   EXPECT_EQ(bus.outputs[0].earliest_intersection().now_ns(), 1);
-  publisher.PublishEarliest({.found = true, .earliest = At(5), .lower = {}, .higher = {}}, At(3));
+  one.world.MoveTo(At(3));
+  publisher.PublishEarliest({.found = true, .earliest = At(5), .lower = {}, .higher = {}},
+                            one.world);
   ASSERT_EQ(bus.outputs.size(), 2u);
   EXPECT_EQ(bus.outputs[1].earliest_intersection().now_ns(), 3);
   EXPECT_EQ(bus.outputs[1].earliest_intersection().earliest_ns(), 5);
+}
+
+TEST(Publisher, AnEarliestAnswerIsDueOncePerPeriodOfEitherTimeAndForNewReaders) {
+  ScriptedBus bus;
+  const ServiceClaim claim = Claimed();
+  Publisher publisher(Config(), &claim, &bus);
+  OneSimulator one;
+  constexpr std::int64_t kPeriod = kSecond / 10;  // the default
+  bus.earliest_read_by = 0;
+  EXPECT_FALSE(publisher.EarliestIsDue(one.world));
+  bus.earliest_read_by = 1;
+  EXPECT_TRUE(publisher.EarliestIsDue(one.world));
+  publisher.PublishEarliest({}, one.world);
+  EXPECT_FALSE(publisher.EarliestIsDue(one.world));
+  one.world.MoveTo(At(kPeriod - 1));
+  EXPECT_FALSE(publisher.EarliestIsDue(one.world));
+  one.world.MoveTo(At(kPeriod));
+  EXPECT_TRUE(publisher.EarliestIsDue(one.world));
+  publisher.PublishEarliest({}, one.world);
+  EXPECT_FALSE(publisher.EarliestIsDue(one.world));
+  one.world.SetReading({.monotonic_ns = kPeriod});
+  EXPECT_TRUE(publisher.EarliestIsDue(one.world));
+  publisher.PublishEarliest({}, one.world);
+  ASSERT_EQ(bus.outputs.size(), 1u);
+  bus.earliest_read_by = 2;
+  EXPECT_TRUE(publisher.EarliestIsDue(one.world));
+  publisher.PublishEarliest({}, one.world);
+  EXPECT_EQ(bus.outputs.size(), 2u);
 }
 
 TEST(Publisher, ContactsAreNumberedInOneInstanceAndClearancesNameTheLast) {

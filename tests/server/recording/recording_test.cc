@@ -166,8 +166,8 @@ TEST_F(RecordingTest, RefusesASecondHeader) {
 TEST_F(RecordingTest, RefusesOtherFiles) {
   EXPECT_NE(RefusalOf("world: \"default\"\n"), "");
   EXPECT_EQ(RefusalOf(std::string(1, '\0')), path_ + ": byte 0: not a recording: it has no header");
-  EXPECT_EQ(RefusalOf(std::string("\x04\x0a\x02\x08\x02", 5)),
-            path_ + ": byte 0: format 2; this program reads format 1");
+  EXPECT_EQ(RefusalOf(std::string("\x04\x0a\x02\x08\x03", 5)),
+            path_ + ": byte 0: format 3; this program reads formats 1 to 2");
   EXPECT_EQ(RefusalOf(std::string("\xff\xff\xff\xff\xff\xff", 6)),
             path_ + ": byte 0: damaged: not a valid entry length");
   EXPECT_THROW(RecordingReader(path_ + ".missing"), std::runtime_error);
@@ -180,6 +180,77 @@ TEST_F(RecordingTest, BoundsTheSizeOfAnEntry) {
   EXPECT_EQ(RefusalOf(std::string("\x80\x80\x80\x20", 4)), path_ + ": byte 0: cut off");
   EXPECT_EQ(RefusalOf(std::string("\x81\x80\x80\x20", 4)),
             path_ + ": byte 0: damaged: an entry of 67108865 bytes");
+}
+
+/// Twice as many bytes as an entry may have, in inputs of 1 MiB that differ.
+v1::RecordedBatch LargeBatch() {
+  v1::RecordedBatch batch = Batch(0);
+  batch.set_wall_was_set(true);
+  for (int i = 0; i < 130; ++i) {
+    v1::Input& input = *batch.add_inputs();
+    input.set_sender(i);
+    input.mutable_shape_part()->set_bytes(std::string(1 << 20, static_cast<char>('a' + i % 26)));
+  }
+  return batch;
+}
+
+// Goal:   a batch of any size is recorded, in several entries, and read back as one.
+TEST_F(RecordingTest, ALargeBatchIsReadBackAsOne) {
+  {
+    RecordingWriter writer(path_, Complete());
+    ASSERT_TRUE(writer.Record(Batch(0)));
+    ASSERT_TRUE(writer.Record(LargeBatch()));
+    ASSERT_TRUE(writer.Record(Batch(2)));
+    EXPECT_EQ(writer.error(), "");
+  }
+  RecordingReader reader(path_);
+  EXPECT_EQ(reader.Next()->SerializeAsString(), Batch(0).SerializeAsString());
+  EXPECT_TRUE(reader.Next()->SerializeAsString() == LargeBatch().SerializeAsString());
+  EXPECT_EQ(reader.Next()->SerializeAsString(), Batch(2).SerializeAsString());
+  EXPECT_FALSE(reader.Next());
+  EXPECT_EQ(reader.error(), "");
+}
+
+// Goal:   of a large batch that is cut off, between two of its entries or in one, nothing is read.
+TEST_F(RecordingTest, ALargeBatchThatIsCutOffIsLeftOut) {
+  std::vector<std::size_t> ends = WriteBatches(2);
+  {
+    RecordingWriter writer(path_, Complete());
+    for (int i = 0; i < 2; ++i) ASSERT_TRUE(writer.Record(Batch(i)));
+    ASSERT_TRUE(writer.Record(LargeBatch()));
+  }
+  const std::string whole = Content();
+  std::size_t first_length = 0;
+  for (int i = 0; i < 4; ++i) {
+    first_length |= static_cast<std::size_t>(whole[ends.back() + i] & 0x7f) << (7 * i);
+  }
+  for (const std::size_t end : {ends.back() + 4 + first_length, whole.size() - 1}) {
+    SetContent(whole.substr(0, end));
+    RecordingReader reader(path_);
+    EXPECT_EQ(CountBatches(reader), 2);
+    EXPECT_TRUE(reader.error().ends_with(": cut off")) << reader.error();
+  }
+}
+
+// Goal:   former recordings are kept, as many as the limit says, and the oldest goes.
+TEST_F(RecordingTest, FormerRecordingsAreKept) {
+  KeepFormerRecordings(path_);  // there is none
+  const auto name = [this](int number) { return path_ + "." + std::to_string(number); };
+  for (int run = 0; run <= kFormerRecordingsMax + 1; ++run) {
+    KeepFormerRecordings(path_);
+    SetContent("run " + std::to_string(run));
+  }
+  SetContent("");
+  KeepFormerRecordings(path_);  // an empty file holds nothing
+  for (int number = 1; number <= kFormerRecordingsMax; ++number) {
+    std::ostringstream text;
+    text << std::ifstream(name(number)).rdbuf();
+    EXPECT_EQ(text.str(), "run " + std::to_string(kFormerRecordingsMax + 1 - number));
+    std::remove(name(number).c_str());
+  }
+  EXPECT_NE(access(name(kFormerRecordingsMax + 1).c_str(), F_OK), 0);
+  KeepFormerRecordings("/dev/null");
+  EXPECT_EQ(access("/dev/null.1", F_OK), -1);
 }
 
 // Goal:   the writer writes nothing that the reader would refuse for its size.
@@ -222,7 +293,7 @@ TEST_F(RecordingTest, FullDiskEndsTheRecording) {
   EXPECT_FALSE(writer.Record(Batch(3))) << "a gap would be worse than an end";
   RecordingReader reader(path_);
   EXPECT_EQ(CountBatches(reader), 2);
-  EXPECT_EQ(reader.error(), path_ + ": byte " + std::to_string(size) + ": cut off");
+  EXPECT_EQ(reader.error(), "") << "the part of a batch is taken off the end";
 }
 
 }  // namespace

@@ -159,13 +159,20 @@ class MemorySink final : public BatchSink {
     batches.push_back(batch);
     return !fails;
   }
+  std::string error() const override { return fails ? "the disk is full" : ""; }
   std::vector<v1::RecordedBatch> batches;
   bool fails = false;
 };
 
+v1::Config OnRecordingFailure(v1::Config::OnFailure on_failure) {
+  v1::Config config = Simulated();
+  config.set_on_recording_failure(on_failure);
+  return config;
+}
+
 TEST(Daemon, RecordsWhatItAppliesAndEndsIfItCannot) {
   MemorySink sink;
-  ScriptedDaemon daemon(Simulated(), &sink);
+  ScriptedDaemon daemon(OnRecordingFailure(v1::Config::END), &sink);
   std::vector<v1::Input> joins = AlphaJoins(kAlpha);
   std::reverse(joins.begin(), joins.end());
   daemon.Step(joins, 1);
@@ -178,6 +185,18 @@ TEST(Daemon, RecordsWhatItAppliesAndEndsIfItCannot) {
   const int flushes = daemon.bus().flushes;
   EXPECT_FALSE(daemon.daemon().Step());
   EXPECT_EQ(daemon.bus().flushes, flushes);
+}
+
+TEST(Daemon, GoesOnWithoutARecordingAndTells) {
+  MemorySink sink;
+  ScriptedDaemon daemon(OnRecordingFailure(v1::Config::GO_ON), &sink);
+  EXPECT_EQ(Extension(daemon.status(), "recording_failure"), "");
+  const std::size_t kept = sink.batches.size();
+  sink.fails = true;
+  daemon.Step(AlphaJoins(kAlpha), 1);
+  EXPECT_NO_THROW(daemon.clearance(SimulatorId("alpha")));
+  EXPECT_EQ(Extension(daemon.status(), "recording_failure"), "the disk is full");
+  EXPECT_EQ(sink.batches.size(), kept + 1) << "after a gap nothing is recorded";
 }
 
 TEST(Daemon, StopsOnRequestOrWhenTheBusEnds) {

@@ -168,6 +168,7 @@ class BatchList final : public BatchSink {
     batches.push_back(batch);
     return true;
   }
+  std::string error() const override { return {}; }
   std::vector<v1::RecordedBatch> batches;
 };
 

@@ -95,6 +95,7 @@ class MemorySink final : public BatchSink {
     batches.push_back(batch);
     return true;
   }
+  std::string error() const override { return {}; }
   std::vector<v1::RecordedBatch> batches;
 };
 

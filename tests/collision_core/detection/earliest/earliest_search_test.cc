@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "collision_core/intersection/earliest_intersection.h"
 #include "collision_core/shape/shape.h"
@@ -53,8 +54,8 @@ class Scene {
     agents.EndStep([](AgentIndex) { return Instant::Always(); });
   }
 
-  EarliestAnswer Find() {
-    const EarliestAnswer answer = search.Find();
+  EarliestAnswer Find(std::size_t queries_max = std::numeric_limits<std::size_t>::max()) {
+    const EarliestAnswer answer = search.Find(queries_max);
     search.Validate();
     return answer;
   }
