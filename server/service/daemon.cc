@@ -10,14 +10,16 @@
 
 #include "idl/limits.h"
 #include "server/bus/batch_order.h"
+#include "server/bus/full_batches.h"
 #include "server/config/config.h"
+#include "server/claim/heard_service.h"
+#include "server/intake/followed_rounds.h"
 #include "server/intake/intake.h"
-#include "server/intake/later_rounds.h"
 #include "server/process/logging.h"
 #include "server/publish/publisher.h"
 #include "server/publish/reports.h"
 #include "server/publish/status.h"
-#include "server/recording/recording.h"
+#include "server/recording/step_recorder.h"
 #include "server/service/detector_options.h"
 #include "server/service/operator_commands.h"
 #include "server/service/roster_journal.h"
@@ -33,21 +35,6 @@ constexpr int kRoundsPerStepMax = 64;
 
 /// A process that makes no step for so much longer than the status period [ns] has stood still.
 constexpr std::int64_t kStoodStill = 1'000'000'000;
-
-/// Inputs of full batches that follow one another while no clock comes into force; after so many it
-/// does all the same, so that a flood of messages does not stop everybody's time.
-constexpr std::size_t kHeldInputsMax = 1 << 20;
-
-OtherPhase PhaseOf(const v1::ServiceHeard& heard) {
-  switch (heard.phase()) {
-    case v1::PHASE_CLAIMING:
-      return OtherPhase::kClaiming;
-    case v1::PHASE_STANDBY:
-      return OtherPhase::kStandby;
-    default:
-      return OtherPhase::kServing;
-  }
-}
 
 /// Queries for one answer about the earliest intersection, some 5 us each: all that an exact answer
 /// needs, unless agents or pairs by the dozen are about equally near.
@@ -87,7 +74,7 @@ class Daemon::Implementation {
     const bool waits = quarantine_ != nullptr && quarantine_->holds();
     const bool goes_on = waits || bus_.Receive(Timeout(), config_.inputs_per_batch_max(), &inputs);
     if (stopped_ || (!goes_on && inputs.empty())) return false;
-    if (!bus_.recorded()) AddReadyShapes(&inputs);
+    if (!bus_.recorded()) shape_builder_->AddFinished(&inputs);
     if (quarantine_ != nullptr) quarantine_->Screen(&inputs);
     SortBatch(&inputs);
     if (quarantine_ != nullptr) quarantine_->BeginStep();
@@ -116,14 +103,12 @@ class Daemon::Implementation {
     if (clock_step_) FollowStep(*clock_step_);
     for (const v1::Input& input : inputs) {
       if (quarantine_ != nullptr) quarantine_->Apply(input);
-      Apply(input);
+      rounds_.Apply(input);
     }
     if (quarantine_ != nullptr) quarantine_->EndMessages();
-    batch_was_full_ = IsFull(inputs);
-    held_inputs_ =
-        batch_was_full_ && held_inputs_ < kHeldInputsMax ? held_inputs_ + inputs.size() : 0;
-    if (held_inputs_ == 0) intake_.TakeClocks();
-    ApplyKept();
+    full_batches_.Take(inputs, config_.inputs_per_batch_max());
+    if (!full_batches_.holds_clocks()) intake_.TakeClocks();
+    rounds_.ApplyKept();
     const bool restarts = ObeyOperators(inputs);
     const bool removed = RemoveSilent();
     ReportSilence(world_.ReleaseSilent());
@@ -146,31 +131,11 @@ class Daemon::Implementation {
     return true;
   }
 
-  /// When a tree is finished depends on the machine; the step from which on it counts becomes an
-  /// input like any other.
-  void AddReadyShapes(std::vector<v1::Input>* inputs) {
-    for (const ReadyTree& tree : shape_builder_->TakeFinished()) {
-      v1::ShapeReady& ready = *inputs->emplace_back().mutable_shape_ready();
-      ready.set_content_hash(tree.hash);
-      ready.set_coarse(tree.coarse);
-    }
-  }
-
-  /// Whether more may have arrived than was taken. The network hands on instance by instance, so a
-  /// clock may have come with the newest of the states that it counts while older ones of other
-  /// agents still wait: no clock comes into force then.
-  bool IsFull(const std::vector<v1::Input>& inputs) const {
-    // What comes with a suspected message follows it.
-    if (!inputs.empty() && inputs.front().suspected()) return true;
-    const auto received = std::count_if(inputs.begin(), inputs.end(), [](const v1::Input& input) {
-      return !input.has_shape_ready();
-    });
-    return received >= static_cast<std::ptrdiff_t>(config_.inputs_per_batch_max());
-  }
-
   /// The time until something is due without any input.
   std::chrono::nanoseconds Timeout() const {
-    if (shape_builder_->has_finished() || batch_was_full_) return std::chrono::nanoseconds(0);
+    if (shape_builder_->has_finished() || full_batches_.last_was_full()) {
+      return std::chrono::nanoseconds(0);
+    }
     if (claim_.works() && world_.RunsInRounds() && NextRound()) {
       return std::chrono::nanoseconds(0);
     }
@@ -200,23 +165,8 @@ class Daemon::Implementation {
     clock_step_ = world_.SetReading(reading);
     ++steps_.batches;
     steps_.inputs += inputs->size();
-    if (recorder_ == nullptr || !recording_failure_.empty()) return true;
-    v1::RecordedBatch batch;
-    batch.set_wall_ns(reading.wall_ns);
-    batch.set_monotonic_ns(reading.monotonic_ns);
-    batch.set_wall_was_set(reading.wall_was_set);
-    for (v1::Input& input : *inputs) *batch.add_inputs() = std::move(input);
-    const bool kept = recorder_->Record(batch);
-    for (std::size_t i = 0; i < inputs->size(); ++i) {
-      (*inputs)[i] = std::move(*batch.mutable_inputs(static_cast<int>(i)));
-    }
-    return kept || EndRecording();
-  }
-
-  /// Nothing more can be recorded. False: the service is to end (on_recording_failure).
-  bool EndRecording() {
-    recording_failure_ = recorder_->error();
-    spdlog::error("{}; nothing more is recorded", recording_failure_);
+    if (recorder_.Record(reading, inputs)) return true;
+    spdlog::error("{}; nothing more is recorded", recorder_.failure());
     schedule_.Hasten();
     return config_.on_recording_failure() != v1::Config::END;
   }
@@ -238,23 +188,17 @@ class Daemon::Implementation {
     }
     intake_.SetContended(claim_.IsContended(now_ns));
     if (claim_.phase() != before) ChangePhase(before);
-    if (claim_.phase() == ClaimPhase::kStandby) {
-      world_.StandBy(std::max(heard_granted_, later_.newest_clock()));
-      follows_rounds_ = true;
-    }
+    if (claim_.phase() == ClaimPhase::kStandby) rounds_.StandBy(heard_granted_);
     bus_.HoldAfter(std::chrono::nanoseconds(claim_.HasStandby() ? Standstill() : 0));
     return claim_.phase() != ClaimPhase::kYielded;
   }
 
   void HearService(const v1::ServiceHeard& heard) {
     if (heard.ended()) return claim_.HearEnd(heard.service_id());
-    claim_.Hear({.instance = heard.service_id(),
-                 .term = heard.term(),
-                 .phase = PhaseOf(heard),
-                 .sequence = heard.sequence()},
-                world_.monotonic_ns());
-    if (heard.phase() != v1::PHASE_SERVING) return;
-    heard_granted_ = Instant::FromNanoseconds(heard.granted_until_ns());
+    claim_.Hear(HeardOf(heard), world_.monotonic_ns());
+    if (heard.phase() == v1::PHASE_SERVING) {
+      heard_granted_ = Instant::FromNanoseconds(heard.granted_until_ns());
+    }
   }
 
   void ChangePhase(ClaimPhase before) {
@@ -263,8 +207,11 @@ class Daemon::Implementation {
       case ClaimPhase::kServing:
         if (before == ClaimPhase::kWaking) return bus_.EndHold(true);
         BeginTerm();
-        if (before == ClaimPhase::kStandby) TakeOver();
-        return;
+        if (before != ClaimPhase::kStandby) return;
+        // Everybody is told anew what holds.
+        world_.TakeOver();
+        reports_ = {};
+        return publisher_.PublishInherited(world_);
       case ClaimPhase::kStandby:
         bus_.EndHold(false);
         spdlog::info("{}: stands by", claim_.why());
@@ -276,13 +223,6 @@ class Daemon::Implementation {
       case ClaimPhase::kYielded:
         return;
     }
-  }
-
-  /// Everybody is told anew what holds.
-  void TakeOver() {
-    world_.TakeOver();
-    reports_ = {};
-    publisher_.PublishInherited(world_);
   }
 
   void BeginTerm() {
@@ -358,7 +298,7 @@ class Daemon::Implementation {
     past_ += detector_.counters();
     detector_ = detection::Detector(DetectorOptionsOf(config_));
     advanced_to_.reset();
-    later_.Clear();
+    rounds_.Clear();
     world_.BeginEpoch();
     publisher_.BeginEpoch(world_.epoch());
     schedule_.Hasten();
@@ -389,32 +329,8 @@ class Daemon::Implementation {
       intake_.Enact();
       world_.MoveTo(*next);
       Detect(true);
-      ApplyKept();
+      rounds_.ApplyKept();
     }
-  }
-
-  /// The time up to which inputs count in this step. A standby, also when it has just taken over,
-  /// may have heard of later rounds than its own.
-  Instant RoundEnd() const {
-    const bool in_rounds = world_.RunsInRounds() && world_.granted() != Instant::Always();
-    return in_rounds && follows_rounds_ ? world_.granted() : Instant::Never();
-  }
-
-  void Apply(const v1::Input& input) {
-    if (!later_.Keep(input, RoundEnd())) return intake_.Apply(input);
-    if (input.has_simulator_clock()) intake_.NoteFollower(input.simulator_clock());
-  }
-
-  void ApplyKept() {
-    if (!follows_rounds_) return;
-    for (const v1::Input& input : later_.Take(RoundEnd())) intake_.Apply(input);
-    intake_.TakeClocks();
-    for (const auto& [id, simulator] : world_.simulators()) {
-      if (!simulator.holds_time() || simulator.time().told_until() >= RoundEnd()) continue;
-      for (const v1::Input& input : later_.TakeToClock(id)) intake_.Apply(input);
-    }
-    intake_.TakeClocks();
-    follows_rounds_ = claim_.phase() == ClaimPhase::kStandby || !later_.empty();
   }
 
   /// The end of the round, if it is over: then everything in it is known.
@@ -452,8 +368,7 @@ class Daemon::Implementation {
   }
 
   void PublishStatus() {
-    if (claim_.phase() == ClaimPhase::kWaking) return;
-    if (!schedule_.Take(world_)) return;
+    if (claim_.phase() == ClaimPhase::kWaking || !schedule_.Take(world_)) return;
     detection::DetectorCounters counted = past_;
     counted += detector_.counters();
     publisher_.PublishStatus(
@@ -483,7 +398,7 @@ class Daemon::Implementation {
       failure.set_value(what.substr(0, wire::kExtensionValueMax));
     };
     add("state_failure", state_failure_);
-    add("recording_failure", recording_failure_);
+    add("recording_failure", recorder_.failure());
     if (quarantine_ != nullptr) add("quarantine", quarantine_->Summary());
     return extensions;
   }
@@ -491,12 +406,11 @@ class Daemon::Implementation {
   const v1::Config config_;
   Bus& bus_;
   Clock& clock_;
-  BatchSink* const recorder_;
+  StepRecorder recorder_;
   RosterJournal journal_;
   std::function<Journal*()> open_journal_;
   Quarantine* const quarantine_;   ///< Null: none.
   std::string state_failure_;      ///< Empty: what must be kept is kept.
-  std::string recording_failure_;  ///< Empty: what is to be recorded is.
   ServiceClaim claim_;
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   World world_;
@@ -505,6 +419,7 @@ class Daemon::Implementation {
   detection::DetectorCounters past_;  ///< Of the epochs that are over.
   Rejections rejections_;
   Intake intake_;
+  FollowedRounds rounds_{&world_, &intake_};
   OperatorCommands operators_;
   Publisher publisher_;
   Reports reports_;
@@ -514,11 +429,8 @@ class Daemon::Implementation {
   SilenceReport silence_report_{config_.clock().on_silent_simulator() == v1::Clock::RELEASE};
   std::optional<ClockStep> clock_step_;  ///< Of this step.
   std::optional<Instant> advanced_to_;
-  LaterRounds later_;
-  bool follows_rounds_ = false;
   Instant heard_granted_ = Instant::Always();  ///< By another service.
-  bool batch_was_full_ = false;
-  std::size_t held_inputs_ = 0;  ///< In the full batches up to now.
+  FullBatches full_batches_;
   std::atomic<bool> stopped_ = false;
 };
 

@@ -95,6 +95,14 @@ BuiltShape Refine(const std::string& hash, const shape::Shape& coarse,
   return built;
 }
 
+void ShapeBuilder::AddFinished(std::vector<v1::Input>* inputs) {
+  for (const ReadyTree& tree : TakeFinished()) {
+    v1::ShapeReady& ready = *inputs->emplace_back().mutable_shape_ready();
+    ready.set_content_hash(tree.hash);
+    ready.set_coarse(tree.coarse);
+  }
+}
+
 void InlineShapeBuilder::Start(const std::string& hash, std::string bytes, std::uint64_t) {
   started_[hash] = {.bytes = std::move(bytes), .coarse = nullptr};
   finished_.push_back({hash});

@@ -26,6 +26,7 @@
 
 #include "collision_core/shape/shape.h"
 #include "idl/config.pb.h"
+#include "idl/messages.pb.h"
 #include "server/shapes/tree_store.h"
 
 namespace collision::server {
@@ -104,6 +105,10 @@ class ShapeBuilder {
   /// What was finished since the last call, in that order; of a shape with both trees only the
   /// wanted one.
   virtual std::vector<ReadyTree> TakeFinished() = 0;
+
+  /// The same as inputs: when a tree is finished depends on the machine, so the step from which on
+  /// it counts is an input like any other.
+  void AddFinished(std::vector<v1::Input>* inputs);
 
   /// Waits until the tree is built and hands it out; the hash is forgotten then, unless the tree is
   /// a coarse one. If the coarse tree was dropped or never built, the wanted one is handed out.

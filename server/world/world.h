@@ -163,6 +163,8 @@ class World {
   /// that one, of which `granted` is the greatest that was heard (simulated clock; else Always()).
   void StandBy(Instant granted);
 
+  bool stands_by() const { return stands_by_; }
+
   /// This service serves from now on, in place of the one beside which it stood by. Simulated
   /// clock: time stands until each simulator that lives and holds time has told a clock that
   /// follows this service. Until then it may act on a grant of which this service has not heard;

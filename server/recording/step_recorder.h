@@ -1,0 +1,30 @@
+// What each step saw, handed to a recording.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "server/bus/clock.h"
+#include "server/recording/recording.h"
+
+namespace collision::server {
+
+/// Records the time and the inputs of each step, as long as they can be. One thread.
+class StepRecorder {
+ public:
+  /// `sink` may be null: nothing is recorded. It outlives this.
+  explicit StepRecorder(BatchSink* sink) : sink_(sink) {}
+
+  /// Before the step applies them. False: nothing more is recorded from now on, told once, by
+  /// failure().
+  bool Record(const ClockReading& reading, std::vector<v1::Input>* inputs);
+
+  /// One line with path and cause; empty while all is well.
+  const std::string& failure() const { return failure_; }
+
+ private:
+  BatchSink* const sink_;
+  std::string failure_;
+};
+
+}  // namespace collision::server
