@@ -36,9 +36,10 @@ bool ArrivedSample::is_disposed() const { return (data->statusinfo & kDisposed) 
 /// What Cyclone DDS calls: it knows the base, which therefore comes first.
 struct Inbox::History {
   dds_rhc base{};
-  Inbox* inbox = nullptr;
   std::size_t topic = 0;
   std::size_t depth = 0;
+  /// Set last: whichever thread of DDS reads it sees all that is above, and the inbox as it was.
+  std::atomic<Inbox*> inbox = nullptr;
 
   template <class Base>
   static History& Of(Base* base) {
@@ -52,13 +53,13 @@ struct Inbox::History {
     const History& self = Of(rhc);
     // A writer that only withdraws says nothing that a simulator means.
     if (data->kind == SDK_DATA || (data->statusinfo & kDisposed) != 0) {
-      self.inbox->Put(self, *writer, data);
+      self.inbox.load()->Put(self, *writer, data);
     }
     return true;
   }
 
   static void Unregister(ddsi_rhc* rhc, const ddsi_writer_info* writer) {
-    Inbox& inbox = *Of(rhc).inbox;
+    Inbox& inbox = *Of(rhc).inbox.load();
     const std::lock_guard lock(inbox.mutex_);
     inbox.writers_.erase(writer->iid);
   }
@@ -66,8 +67,9 @@ struct Inbox::History {
   /// The readers end together, and DDS wants all samples back before it ends itself.
   static void Free(ddsi_rhc* rhc) {
     const std::unique_ptr<History> self(&Of(rhc));
-    const std::lock_guard lock(self->inbox->mutex_);
-    self->inbox->queues_.Clear();
+    Inbox& inbox = *self->inbox.load();
+    const std::lock_guard lock(inbox.mutex_);
+    inbox.queues_.Clear();
   }
 };
 
@@ -97,9 +99,9 @@ const dds_rhc_ops Inbox::kOperations = {
 dds_rhc* Inbox::MakeHistory(std::size_t topic, std::size_t depth) {
   auto history = std::make_unique<History>();
   history->base.common.ops = &kOperations;
-  history->inbox = this;
   history->topic = topic;
   history->depth = depth;
+  history->inbox = this;
   return &history.release()->base;
 }
 
@@ -117,6 +119,7 @@ void Inbox::Put(const History& history, const ddsi_writer_info& writer, ddsi_ser
   std::copy(std::begin(key.value), std::end(key.value), facts.key.key.begin());
   facts.depth = facts.key.disposal ? 1 : history.depth;
   facts.bytes = ddsi_serdata_size(data);
+  dds_entity_t to_trigger = 0;
   {
     const std::lock_guard lock(mutex_);
     const NewWriter known{history.topic, facts.sender, writer.iid};
@@ -129,18 +132,21 @@ void Inbox::Put(const History& history, const ddsi_writer_info& writer, ddsi_ser
       ignored_.push_back({known, queues_.IgnoredFor(facts.sender, now_ns)});
     }
     waiting_most_ = std::max(waiting_most_, queues_.waiting_bytes());
-    if (outcome != kWaits && outcome != kIgnoredFromNow) return;
+    if (!triggered_ && (outcome == kWaits || outcome == kIgnoredFromNow)) {
+      triggered_ = true;
+      to_trigger = guard_;
+    }
   }
-  if (!triggered_.exchange(true)) dds_set_guardcondition(guard_, true);
+  if (to_trigger != 0) dds_set_guardcondition(to_trigger, true);
 }
 
 std::vector<ArrivedSample> Inbox::Take(std::size_t samples, std::size_t bytes) {
-  triggered_ = false;
   std::vector<ArrivedSample> taken;
   std::size_t size = 0, before = 0;
   do {
     before = taken.size();
     const std::lock_guard lock(mutex_);
+    triggered_ = false;
     queues_.Take(std::min(samples - before, kAtATime), bytes - size, Now(), &taken);
     for (std::size_t i = before; i < taken.size(); ++i) {
       size += std::min(bytes - size, ddsi_serdata_size(taken[i].data.get()) + kSampleOverhead);

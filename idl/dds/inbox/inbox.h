@@ -85,10 +85,10 @@ class Inbox {
   void Put(const History& history, const ddsi_writer_info& writer, ddsi_serdata* data);
 
   dds_entity_t guard_ = 0;
-  std::atomic<bool> triggered_ = false;
   std::atomic<std::uint64_t> refused_ = 0;
   std::mutex mutex_;
   // All below are guarded by mutex_.
+  bool triggered_ = false;  ///< The guard condition, since the last Take().
   SenderQueues<ArrivedSample> queues_;
   std::set<dds_instance_handle_t> writers_;
   std::vector<NewWriter> new_writers_;

@@ -56,11 +56,12 @@ class SenderQueues {
     Queue& queue = queues_.try_emplace(facts.sender, NewQueue(now_ns)).first->second;
     if (now_ns < queue.ignored_until_ns) return Outcome::kIgnored;
     const std::size_t cost = facts.bytes + kSampleOverhead;
+    const bool first = queue.order.empty();
     MakeRoom(facts, &queue);
     if (!HasRoom(queue, cost)) return Refuse(&queue, now_ns);
     Append(facts.key, {facts.key, facts.bytes, std::move(item), {}}, &queue);
     Refill(&queue, now_ns);
-    return Ready(queue) || queue.order.size() == 1 ? Outcome::kWaits : Outcome::kOverRate;
+    return first || Ready(queue) ? Outcome::kWaits : Outcome::kOverRate;
   }
 
   /// Appends at most `samples` items, as many as have `bytes` together, the last one rounded up.
