@@ -1,5 +1,6 @@
 #include "idl/dds/inbox/inbox.h"
 
+#include <atomic>
 #include <chrono>
 #include <type_traits>
 #include <utility>
@@ -127,7 +128,6 @@ void Inbox::Put(const History& history, const ddsi_writer_info& writer, ddsi_ser
     using enum SenderQueues<ArrivedSample>::Outcome;
     const std::int64_t now_ns = Now();
     const auto outcome = queues_.Put(facts, std::move(sample), now_ns);
-    if (outcome != kWaits && outcome != kOverRate) ++refused_;
     if (outcome == kIgnoredFromNow) {
       ignored_.push_back({known, queues_.IgnoredFor(facts.sender, now_ns)});
     }
@@ -175,6 +175,11 @@ bool Inbox::TakeRelief() {
   if (waiting_most_ < kReliefMin || queues_.waiting_bytes() > waiting_most_ / 4) return false;
   waiting_most_ = queues_.waiting_bytes();
   return true;
+}
+
+std::uint64_t Inbox::refused() const {
+  const std::lock_guard lock(mutex_);
+  return queues_.refused();
 }
 
 }  // namespace collision::dds
