@@ -113,6 +113,7 @@ v1::AgentStates LargestStates(std::uint32_t chunk) {
 // sanitizers watch.
 TEST(DdsBusFlood, ABusMayEndWhileProgramsWrite) {
   constexpr int kBuses = 5;
+  const DdsBus last_and_unread(TestWorld(), TestDomain(), kLease, SmallLimits());
   std::atomic<bool> ends = false;
   std::vector<std::thread> programs;
   for (const std::string name : {"a", "b"}) {
