@@ -116,9 +116,10 @@ constexpr ConfigOption kOptions[] = {
     {"sender_bytes_per_second_max", "bytes", "100000", "100000000000", "", "268435456",
      "Likewise bytes, as on the network."},
     {"waiting_mb_max", "MB", "1", "65536", "", "128",
-     "Memory for messages that have arrived and wait. Where it is full, each program may fill an "
-     "equal share of it, so that at most twice as much waits. More is refused; a program that goes "
-     "on is ignored for 10 s, the next time for twice as long, up to an hour."},
+     "Memory for messages that have arrived and wait. Where it is full, the program of which most "
+     "waits loses its oldest, so that each may fill an equal share. More is refused; a program "
+     "that "
+     "goes on is ignored for 10 s, the next time for twice as long, up to an hour."},
     {"undescribed_after_s", "s", "0.1", "3600", "", "5",
      "How long states without a description, and agents whose shape has not arrived, wait until "
      "their sender gets a rejection."},

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <thread>
 
 #include "idl/identity.h"
 #include "idl/limits.h"
@@ -105,6 +107,35 @@ v1::AgentStates LargestStates(std::uint32_t chunk) {
     state.set_discontinuity(true);
   }
   return message;
+}
+
+// What a bus leaves to its readers' threads must neither outlive it nor go before them: the
+// sanitizers watch.
+TEST(DdsBusFlood, ABusMayEndWhileProgramsWrite) {
+  constexpr int kBuses = 5;
+  const DdsBus last_and_unread(TestWorld(), TestDomain(), kLease, SmallLimits());
+  std::atomic<bool> ends = false;
+  std::vector<std::thread> programs;
+  for (const std::string name : {"a", "b"}) {
+    programs.emplace_back([&ends, name] {
+      DdsSession simulator(SimulatorOptions(name));
+      for (std::uint32_t slot = 0; !ends; slot = (slot + 1) % kAtATime) {
+        simulator.Write(Description(name, slot));
+        simulator.RemoveShape(SimulatorId(name), slot, 1);
+        simulator.Flush();
+      }
+    });
+  }
+  const ChildSimulator child(1);
+  int heard = 0;
+  for (int i = 0; i < kBuses; ++i) {
+    DdsBus bus(TestWorld(), TestDomain(), kLease, SmallLimits());
+    std::vector<v1::Input> inputs;
+    if (ReceiveUntil(bus, &inputs, [&] { return !inputs.empty(); })) ++heard;
+  }
+  ends = true;
+  for (std::thread& program : programs) program.join();
+  EXPECT_EQ(heard, kBuses);
 }
 
 TEST(DdsBusFlood, ABatchFitsIntoARecording) {

@@ -168,7 +168,40 @@ TEST(SenderQueues, WhereOneFillsTheMemoryAnotherHasItsShare) {
   std::size_t kept = 0;
   while (queues.Put(Of(2, key++), 0, 0) == Outcome::kWaits) ++kept;
   EXPECT_GE((kept + 1) * (100 + kSampleOverhead), limits.waiting_bytes_max / 2);
-  EXPECT_LE(queues.waiting_bytes(), 2 * limits.waiting_bytes_max);
+  EXPECT_LE(queues.waiting_bytes(), limits.waiting_bytes_max);
+}
+
+// One after the other, which is the worst: each finds the memory full.
+TEST(SenderQueues, ManySendersTogetherFillNoMoreThanOne) {
+  constexpr std::uint64_t kSenders = 20, kSamples = 1000;
+  SenderLimits limits;
+  limits.waiting_bytes_max = 600'000;
+  Queues queues(limits);
+  for (std::uint64_t sender = 0; sender < kSenders; ++sender) {
+    for (std::uint64_t key = 0; key < kSamples; ++key) {
+      queues.Put(Of(sender, key), static_cast<int>(sender), 0);
+      ASSERT_LE(queues.waiting_bytes(), limits.waiting_bytes_max);
+    }
+  }
+  const std::vector<int> items = Taken(&queues);
+  EXPECT_EQ(items.size() + queues.refused(), kSenders * kSamples);
+  const auto share = static_cast<double>(items.size()) / kSenders;
+  for (std::uint64_t sender = 0; sender < kSenders; ++sender) {
+    const auto kept = std::count(items.begin(), items.end(), static_cast<int>(sender));
+    EXPECT_NEAR(static_cast<double>(kept), share, 2);
+  }
+}
+
+// What a sender writes of one key again and again wakes nobody again.
+TEST(SenderQueues, OfOneKeyTooOnlyTheFirstThatWaitsIsWorthWakingAnybody) {
+  SenderLimits limits;
+  limits.samples_per_second = 100;
+  Queues queues(limits);
+  for (std::uint64_t key = 0; key < 50; ++key) queues.Put(Of(1, key), 0, 0);
+  EXPECT_EQ(Taken(&queues).size(), 50u);
+  EXPECT_EQ(queues.Put(Of(1, 7), 1, 0), Outcome::kWaits);
+  EXPECT_EQ(queues.Put(Of(1, 7), 2, 0), Outcome::kOverRate);
+  EXPECT_EQ(Taken(&queues, kNoLimit, kSecond), std::vector<int>{2});
 }
 
 }  // namespace

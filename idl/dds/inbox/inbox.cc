@@ -1,5 +1,6 @@
 #include "idl/dds/inbox/inbox.h"
 
+#include <atomic>
 #include <chrono>
 #include <type_traits>
 #include <utility>
@@ -36,9 +37,10 @@ bool ArrivedSample::is_disposed() const { return (data->statusinfo & kDisposed) 
 /// What Cyclone DDS calls: it knows the base, which therefore comes first.
 struct Inbox::History {
   dds_rhc base{};
-  Inbox* inbox = nullptr;
   std::size_t topic = 0;
   std::size_t depth = 0;
+  /// Set last: whichever thread of DDS reads it sees all that is above, and the inbox as it was.
+  std::atomic<Inbox*> inbox = nullptr;
 
   template <class Base>
   static History& Of(Base* base) {
@@ -52,13 +54,13 @@ struct Inbox::History {
     const History& self = Of(rhc);
     // A writer that only withdraws says nothing that a simulator means.
     if (data->kind == SDK_DATA || (data->statusinfo & kDisposed) != 0) {
-      self.inbox->Put(self, *writer, data);
+      self.inbox.load()->Put(self, *writer, data);
     }
     return true;
   }
 
   static void Unregister(ddsi_rhc* rhc, const ddsi_writer_info* writer) {
-    Inbox& inbox = *Of(rhc).inbox;
+    Inbox& inbox = *Of(rhc).inbox.load();
     const std::lock_guard lock(inbox.mutex_);
     inbox.writers_.erase(writer->iid);
   }
@@ -66,8 +68,9 @@ struct Inbox::History {
   /// The readers end together, and DDS wants all samples back before it ends itself.
   static void Free(ddsi_rhc* rhc) {
     const std::unique_ptr<History> self(&Of(rhc));
-    const std::lock_guard lock(self->inbox->mutex_);
-    self->inbox->queues_.Clear();
+    Inbox& inbox = *self->inbox.load();
+    const std::lock_guard lock(inbox.mutex_);
+    inbox.queues_.Clear();
   }
 };
 
@@ -97,9 +100,9 @@ const dds_rhc_ops Inbox::kOperations = {
 dds_rhc* Inbox::MakeHistory(std::size_t topic, std::size_t depth) {
   auto history = std::make_unique<History>();
   history->base.common.ops = &kOperations;
-  history->inbox = this;
   history->topic = topic;
   history->depth = depth;
+  history->inbox = this;
   return &history.release()->base;
 }
 
@@ -117,6 +120,7 @@ void Inbox::Put(const History& history, const ddsi_writer_info& writer, ddsi_ser
   std::copy(std::begin(key.value), std::end(key.value), facts.key.key.begin());
   facts.depth = facts.key.disposal ? 1 : history.depth;
   facts.bytes = ddsi_serdata_size(data);
+  dds_entity_t to_trigger = 0;
   {
     const std::lock_guard lock(mutex_);
     const NewWriter known{history.topic, facts.sender, writer.iid};
@@ -124,23 +128,25 @@ void Inbox::Put(const History& history, const ddsi_writer_info& writer, ddsi_ser
     using enum SenderQueues<ArrivedSample>::Outcome;
     const std::int64_t now_ns = Now();
     const auto outcome = queues_.Put(facts, std::move(sample), now_ns);
-    if (outcome != kWaits && outcome != kOverRate) ++refused_;
     if (outcome == kIgnoredFromNow) {
       ignored_.push_back({known, queues_.IgnoredFor(facts.sender, now_ns)});
     }
     waiting_most_ = std::max(waiting_most_, queues_.waiting_bytes());
-    if (outcome != kWaits && outcome != kIgnoredFromNow) return;
+    if (!triggered_ && (outcome == kWaits || outcome == kIgnoredFromNow)) {
+      triggered_ = true;
+      to_trigger = guard_;
+    }
   }
-  if (!triggered_.exchange(true)) dds_set_guardcondition(guard_, true);
+  if (to_trigger != 0) dds_set_guardcondition(to_trigger, true);
 }
 
 std::vector<ArrivedSample> Inbox::Take(std::size_t samples, std::size_t bytes) {
-  triggered_ = false;
   std::vector<ArrivedSample> taken;
   std::size_t size = 0, before = 0;
   do {
     before = taken.size();
     const std::lock_guard lock(mutex_);
+    triggered_ = false;
     queues_.Take(std::min(samples - before, kAtATime), bytes - size, Now(), &taken);
     for (std::size_t i = before; i < taken.size(); ++i) {
       size += std::min(bytes - size, ddsi_serdata_size(taken[i].data.get()) + kSampleOverhead);
@@ -169,6 +175,11 @@ bool Inbox::TakeRelief() {
   if (waiting_most_ < kReliefMin || queues_.waiting_bytes() > waiting_most_ / 4) return false;
   waiting_most_ = queues_.waiting_bytes();
   return true;
+}
+
+std::uint64_t Inbox::refused() const {
+  const std::lock_guard lock(mutex_);
+  return queues_.refused();
 }
 
 }  // namespace collision::dds

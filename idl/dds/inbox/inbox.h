@@ -1,7 +1,6 @@
 // Where the samples of simulators wait between Cyclone DDS and a program.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -75,8 +74,8 @@ class Inbox {
   /// True once after much has waited and is gone: memory can be given back.
   bool TakeRelief();
 
-  /// Samples that were not kept: their sender had too many waiting, or is ignored.
-  std::uint64_t refused() const { return refused_; }
+  /// As SenderQueues::refused().
+  std::uint64_t refused() const;
 
  private:
   struct History;
@@ -85,10 +84,9 @@ class Inbox {
   void Put(const History& history, const ddsi_writer_info& writer, ddsi_serdata* data);
 
   dds_entity_t guard_ = 0;
-  std::atomic<bool> triggered_ = false;
-  std::atomic<std::uint64_t> refused_ = 0;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   // All below are guarded by mutex_.
+  bool triggered_ = false;  ///< The guard condition, since the last Take().
   SenderQueues<ArrivedSample> queues_;
   std::set<dds_instance_handle_t> writers_;
   std::vector<NewWriter> new_writers_;

@@ -11,8 +11,8 @@ namespace collision::dds {
 struct SenderLimits {
   std::uint64_t samples_per_second = 300'000;    ///< Of one sender, > 0.
   std::uint64_t bytes_per_second = 268'435'456;  ///< Likewise.
-  /// Of all senders together, the memory beside the samples included. Where that is full, a sender
-  /// may still fill an equal share of it, so that in all at most twice as much waits.
+  /// Of all senders together, the memory beside the samples included. Where that is full, the
+  /// sender of which most waits gives way, so that each may fill an equal share.
   std::size_t waiting_bytes_max = 128'000'000;
 };
 
@@ -26,7 +26,8 @@ inline constexpr std::size_t kSampleOverhead = 512;
 /// sample of each key is kept.
 inline constexpr std::size_t kBehind = 16384;
 
-/// Samples refused since the sender's queue was last empty; one more, and it is ignored.
+/// Samples that were refused or gave way since the sender's queue was last empty; with one more it
+/// is ignored.
 inline constexpr std::size_t kRefusedMax = 65536;
 
 /// How long it is ignored for the first time [ns]; then twice as long each time, up to the maximum.

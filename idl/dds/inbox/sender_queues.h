@@ -54,13 +54,16 @@ class SenderQueues {
 
   Outcome Put(const SampleFacts& facts, Item item, std::int64_t now_ns) {
     Queue& queue = queues_.try_emplace(facts.sender, NewQueue(now_ns)).first->second;
-    if (now_ns < queue.ignored_until_ns) return Outcome::kIgnored;
-    const std::size_t cost = facts.bytes + kSampleOverhead;
-    MakeRoom(facts, &queue);
-    if (!HasRoom(queue, cost)) return Refuse(&queue, now_ns);
+    if (now_ns < queue.ignored_until_ns) {
+      ++refused_;
+      return Outcome::kIgnored;
+    }
+    const bool first = queue.order.empty();
+    Replace(facts, &queue);
+    if (!MakeRoom(facts.bytes + kSampleOverhead, &queue)) return Refuse(&queue, now_ns);
     Append(facts.key, {facts.key, facts.bytes, std::move(item), {}}, &queue);
     Refill(&queue, now_ns);
-    return Ready(queue) || queue.order.size() == 1 ? Outcome::kWaits : Outcome::kOverRate;
+    return first || Ready(queue) ? Outcome::kWaits : Outcome::kOverRate;
   }
 
   /// Appends at most `samples` items, as many as have `bytes` together, the last one rounded up.
@@ -114,6 +117,9 @@ class SenderQueues {
 
   /// Of all that waits, kSampleOverhead included.
   std::size_t waiting_bytes() const { return waiting_bytes_; }
+
+  /// Samples that were neither taken nor replaced by newer ones.
+  std::uint64_t refused() const { return refused_; }
 
  private:
   struct Sample;
@@ -187,7 +193,7 @@ class SenderQueues {
     if (queue->order.empty()) queue->refused = 0;
   }
 
-  void MakeRoom(const SampleFacts& facts, Queue* queue) {
+  void Replace(const SampleFacts& facts, Queue* queue) {
     const bool behind =
         queue->order.size() >= kBehind || queue->waiting_bytes >= limits_.waiting_bytes_max / 4;
     const std::size_t depth = behind ? 1 : facts.depth;
@@ -198,17 +204,25 @@ class SenderQueues {
     }
   }
 
-  bool HasRoom(const Queue& queue, std::size_t cost) const {
-    if (waiting_bytes_ + cost <= limits_.waiting_bytes_max) return true;
-    const auto waiting = static_cast<std::size_t>(
-        std::count_if(queues_.begin(), queues_.end(),
-                      [](const auto& entry) { return !entry.second.order.empty(); }));
-    return queue.waiting_bytes + cost <=
-           limits_.waiting_bytes_max / std::max<std::size_t>(waiting, 1);
+  /// Where memory is full, the sender of which most waits loses its oldest sample, unless it is the
+  /// one that wants room or would then have less than that.
+  bool MakeRoom(std::size_t cost, Queue* queue) {
+    while (waiting_bytes_ + cost > limits_.waiting_bytes_max) {
+      Queue& largest = std::max_element(queues_.begin(), queues_.end(), [](auto& a, auto& b) {
+                         return a.second.waiting_bytes < b.second.waiting_bytes;
+                       })->second;
+      if (largest.waiting_bytes <= queue->waiting_bytes + cost) return false;
+      Erase(largest.order.begin(), &largest);
+      ++largest.refused;
+      ++refused_;
+    }
+    return true;
   }
 
   Outcome Refuse(Queue* queue, std::int64_t now_ns) {
+    ++refused_;
     if (++queue->refused <= kRefusedMax) return Outcome::kRefused;
+    refused_ += queue->order.size();
     waiting_bytes_ -= queue->waiting_bytes;
     const std::int64_t twice = std::min(2 * queue->ignored_for_ns, kIgnoredForMax);
     *queue = NewQueue(now_ns);
@@ -249,6 +263,7 @@ class SenderQueues {
   std::map<std::uint64_t, Queue> queues_;
   std::uint64_t last_served_ = 0;
   std::size_t waiting_bytes_ = 0;
+  std::uint64_t refused_ = 0;
 };
 
 }  // namespace collision::dds
