@@ -51,7 +51,8 @@ class Intake {
                    std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs);
 
   /// Reports each program that left, fell silent or is back, for every simulator for which it has
-  /// spoken, and each other service that left or fell silent. Call it after Take(): what a program wrote comes before the report of its end.
+  /// spoken, and each other service that left or fell silent. Call it after Take(): what a program
+  /// wrote comes before the report of its end.
   void Follow(const std::vector<WriterChange>& changes, std::vector<v1::Input>* inputs);
 
  private:

@@ -29,7 +29,8 @@ class Bus {
   virtual void Flush() = 0;
 
   /// If this process stands still for longer than `standstill` between Receive() and what it
-  /// publishes after it, that is held back: another service may have taken over meanwhile. 0: never.
+  /// publishes after it, that is held back: another service may have taken over meanwhile. 0:
+  /// never.
   virtual void HoldAfter(std::chrono::nanoseconds standstill) { static_cast<void>(standstill); }
 
   /// What is held back is published, or dropped.

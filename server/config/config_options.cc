@@ -190,15 +190,15 @@ constexpr ConfigOption kOptions[] = {
     {"lease_s", "s", "0.05", "2", "", "2",
      "The network counts this service as gone when it has not been heard for so long; a standby "
      "then takes over. Under 0.1 a busy machine gives false alarms."},
+    {"on_recording_failure", "none", "", "", "GO_ON or END", "GO_ON",
+     "When the recording (--record) cannot be written any more, as on a full disk: GO_ON serves on "
+     "without it, END ends the service with 74. It ends with a whole batch, and the log and the "
+     "status tell of it, either way."},
     {"tree_bytes_max", "bytes", "1048576", "1099511627776", "", "4294967296",
      "Maximum memory for the sphere trees of all shapes together, some hundred MB for a million "
      "triangles. A shape whose tree does not fit is refused; where only its finer tree does not, "
      "it "
      "keeps the coarse one."},
-    {"on_recording_failure", "none", "", "", "GO_ON or END", "GO_ON",
-     "When the recording (--record) cannot be written any more, as on a full disk: GO_ON serves on "
-     "without it, END ends the service with 74. It ends with a whole batch, and the log and the "
-     "status tell of it, either way."},
 };
 
 class Silent final : public google::protobuf::io::ErrorCollector {

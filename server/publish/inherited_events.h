@@ -17,9 +17,9 @@ namespace collision::server {
 /// that after a take-over none is lost and none is told as another one.
 ///
 /// Both services see the same inputs and find the same contacts, but may hear of them in other
-/// steps, or one of them joined later: then it has counted fewer contacts of a pair. An event of one
-/// is that of the other if they have one number, if that of the other is open, or if their begin
-/// brackets meet; the standby goes on with the numbers that readers know.
+/// steps, or one of them joined later: then it has counted fewer contacts of a pair. An event of
+/// one is that of the other if they have one number, if that of the other is open, or if their
+/// begin brackets meet; the standby goes on with the numbers that readers know.
 ///
 /// Depends on nothing but the calls. O(log pairs) for each event; at most 2 kPairsMax pairs and
 /// kUntoldMax contacts. One thread.

@@ -11,8 +11,8 @@
 #include "idl/limits.h"
 #include "server/bus/batch_order.h"
 #include "server/bus/full_batches.h"
-#include "server/config/config.h"
 #include "server/claim/heard_service.h"
+#include "server/config/config.h"
 #include "server/intake/followed_rounds.h"
 #include "server/intake/intake.h"
 #include "server/process/logging.h"
@@ -409,8 +409,8 @@ class Daemon::Implementation {
   StepRecorder recorder_;
   RosterJournal journal_;
   std::function<Journal*()> open_journal_;
-  Quarantine* const quarantine_;   ///< Null: none.
-  std::string state_failure_;      ///< Empty: what must be kept is kept.
+  Quarantine* const quarantine_;  ///< Null: none.
+  std::string state_failure_;     ///< Empty: what must be kept is kept.
   ServiceClaim claim_;
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   World world_;

@@ -329,6 +329,7 @@ std::string RandomValue(const ConfigOption& option, Random& random) {
   const bool needs_others = !option.only_with.empty() || option.path == "clock.release_after_s";
   if (needs_others && random.Chance(0.9)) return std::string(option.value);
   if (option.path.ends_with("_failure")) return random.Chance(0.5) ? "GO_ON" : "END";
+  if (option.path == "on_occupied") return random.Chance(0.5) ? "LEAVE" : "STAND_BY";
   if (option.least.empty()) return "RELEASE";
   const double least = std::max(std::stod(std::string(option.least)), 1e-6);
   const double most = std::min(std::stod(std::string(option.most)), 1e15);
