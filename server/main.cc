@@ -1,8 +1,8 @@
 // collisiond: README.md in this folder.
 #include <iostream>
 
-#include "server/service/options.h"
-#include "server/service/program.h"
+#include "server/service/program/options.h"
+#include "server/service/program/program.h"
 
 int main(int argc, char** argv) {
   const auto parsed = collision::server::ParseOptions(argc, argv);

@@ -1,4 +1,4 @@
-#include "server/service/options.h"
+#include "server/service/program/options.h"
 
 #include <google/protobuf/stubs/strutil.h>
 

@@ -1,4 +1,4 @@
-#include "server/service/program.h"
+#include "server/service/program/program.h"
 
 #include <google/protobuf/util/json_util.h>
 #include <spdlog/spdlog.h>
@@ -22,8 +22,8 @@
 #include "server/process/stop_signals.h"
 #include "server/recording/recording.h"
 #include "server/recording/replay.h"
-#include "server/service/calibrate.h"
 #include "server/service/daemon.h"
+#include "server/service/program/calibrate.h"
 #include "server/service/serve.h"
 #include "server/shapes/tree_cache.h"
 #include "server/world/world.h"

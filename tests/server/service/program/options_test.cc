@@ -1,4 +1,4 @@
-#include "server/service/options.h"
+#include "server/service/program/options.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What the program collisiond does with its command line.
 #pragma once
 
-#include "server/service/options.h"
+#include "server/service/program/options.h"
 
 namespace collision::server {
 

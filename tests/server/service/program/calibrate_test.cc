@@ -1,4 +1,4 @@
-#include "server/service/calibrate.h"
+#include "server/service/program/calibrate.h"
 
 #include <gtest/gtest.h>
 
