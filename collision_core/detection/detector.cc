@@ -29,7 +29,9 @@ void Detector::SetHeardUntil(const OwnerId& owner, Instant until) {
 void Detector::VoidOwner(const OwnerId& owner, Instant from) {
   implementation_->VoidOwner(owner, from);
 }
-void Detector::Advance(Instant now) { implementation_->Advance(now); }
+void Detector::Advance(Instant now, const std::function<void()>& progress) {
+  implementation_->Advance(now, progress);
+}
 const std::vector<CollisionEvent>& Detector::events() const {
   return implementation_->pairs().events();
 }
@@ -42,6 +44,10 @@ std::optional<AgentClearance> Detector::ClearanceOf(const AgentId& id) const {
 EarliestAnswer Detector::Earliest() const { return implementation_->Earliest(); }
 std::size_t Detector::agents() const { return implementation_->agents().size(); }
 std::size_t Detector::pairs_tracked() const { return implementation_->pairs().table().size(); }
+std::size_t Detector::pairs_waiting() const { return implementation_->pairs().waiting(); }
+std::vector<OwnerWork> Detector::owner_work() const {
+  return implementation_->pairs().owner_work();
+}
 std::size_t Detector::queued() const { return implementation_->queued(); }
 const DetectorCounters& Detector::counters() const { return implementation_->counters(); }
 Detector::Profile Detector::profile() const { return implementation_->DescribeScene(); }

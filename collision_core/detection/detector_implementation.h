@@ -25,7 +25,7 @@ class Detector::Implementation {
   bool Remove(const AgentId& id);
   void SetHeardUntil(const OwnerId& owner, Instant until) { agents_.SetHeardUntil(owner, until); }
   void VoidOwner(const OwnerId& owner, Instant from);
-  void Advance(Instant now);
+  void Advance(Instant now, const std::function<void()>& progress);
 
   std::vector<AgentClearance> TakeChangedClearances() { return clearances_.TakeChanged(); }
   std::optional<AgentClearance> ClearanceOf(const AgentId& id) const;
