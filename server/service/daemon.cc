@@ -18,6 +18,7 @@
 #include "server/recording/recording.h"
 #include "server/service/operator_commands.h"
 #include "server/service/roster_journal.h"
+#include "server/service/share_report.h"
 #include "server/service/silence_report.h"
 #include "server/shapes/shape_store.h"
 
@@ -72,6 +73,7 @@ class Daemon::Implementation {
         journal_(config_, parts.journal),
         state_failure_(parts.state_failure),
         claim_(parts.claim),
+        progress_(std::move(parts.progress)),
         shape_builder_(parts.shape_builder
                            ? std::move(parts.shape_builder)
                            : std::make_unique<InlineShapeBuilder>(BuildOptionsOf(config_))),
@@ -165,9 +167,13 @@ class Daemon::Implementation {
     std::int64_t wait = due - world_.monotonic_ns();
     if (!world_.simulated()) {
       wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()));
+      // Pairs that wait leave the processor as long as a step may take them.
+      if (detector_.pairs_waiting() > 0) wait = std::min(wait, StepBudgetNs());
     }
     return std::chrono::nanoseconds(std::max<std::int64_t>(wait, 0));
   }
+
+  std::int64_t StepBudgetNs() const { return ToNanoseconds(1e-6 * config_.step_budget_us()); }
 
   /// Takes the time of this step and records what it applies. False: it could not be recorded.
   bool Begin(const ClockReading& reading, std::vector<v1::Input>* inputs) {
@@ -327,7 +333,11 @@ class Daemon::Implementation {
     if (!world_.started()) return;
     if (world_.simulated() && !inputs && world_.now() == advanced_to_) return;
     advanced_to_ = world_.now();
-    detector_.Advance(world_.now());
+    detector_.Advance(world_.now(), [this] {
+      if (progress_ && progress_()) SendStatus();
+    });
+    if (shares_.Take(detector_.owner_work(), world_)) schedule_.Hasten();
+    shares_.Write(world_.monotonic_ns());
     for (const detection::AgentClearance& clearance : detector_.TakeChangedClearances()) {
       world_.SetClearance(clearance);
     }
@@ -346,7 +356,10 @@ class Daemon::Implementation {
   }
 
   void PublishStatus() {
-    if (!schedule_.Take(world_)) return;
+    if (schedule_.Take(world_)) SendStatus();
+  }
+
+  void SendStatus() {
     detection::DetectorCounters counted = past_;
     counted += detector_.counters();
     publisher_.PublishStatus(
@@ -369,6 +382,7 @@ class Daemon::Implementation {
     std::vector<v1::KeyValue> extensions;
     silence_report_.AddExtensions(&extensions);
     operators_.AddExtensions(&extensions);
+    shares_.AddExtensions(&extensions);
     if (!state_failure_.empty()) {
       v1::KeyValue& failure = extensions.emplace_back();
       failure.set_key("state_failure");
@@ -384,6 +398,7 @@ class Daemon::Implementation {
   RosterJournal journal_;
   std::string state_failure_;  ///< Empty: what must be kept is kept.
   ServiceClaim claim_;
+  const std::function<bool()> progress_;  ///< As in DaemonParts.
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   ShapeStore shapes_;
   World world_;
@@ -398,6 +413,7 @@ class Daemon::Implementation {
   Rate query_rate_;
   StepCounters steps_;
   SilenceReport silence_report_{config_.clock().on_silent_simulator() == v1::Clock::RELEASE};
+  ShareReport shares_;
   std::optional<ClockStep> clock_step_;  ///< Of this step.
   std::optional<Instant> advanced_to_;
   bool batch_was_full_ = false;

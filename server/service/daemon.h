@@ -1,6 +1,7 @@
 // The step of the service: everything that happens between the network and the core.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -24,6 +25,9 @@ struct DaemonParts {
   Journal* journal = nullptr;                             ///< Keeps term, roster and grants.
   std::string state_failure = {};  ///< Why there is no journal, if one was wanted.
   ClaimOptions claim = {};         ///< By default it serves from the first step.
+  /// Called while a step goes on, after each bounded piece of the detector's work. True: a status
+  /// is published now, in the middle of the step. Decides nothing else.
+  std::function<bool()> progress = nullptr;
 };
 
 /// Owns the parts of the service and runs them in steps, on one thread. A step

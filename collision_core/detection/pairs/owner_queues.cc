@@ -48,9 +48,7 @@ OwnerQueues::Queue* OwnerQueues::PayerOf(const Entry& entry) const {
   return entry.a->work.owner < entry.b->work.owner ? entry.a : entry.b;
 }
 
-OwnerId OwnerQueues::PayerOf(PairSlot slot) const {
-  return PayerOf(entries_.at(slot))->work.owner;
-}
+OwnerId OwnerQueues::PayerOf(PairSlot slot) const { return PayerOf(entries_.at(slot))->work.owner; }
 
 bool OwnerQueues::IsWaiting(PairSlot slot) const {
   return entries_.contains(slot) && entries_[slot].waits_in != nullptr;
