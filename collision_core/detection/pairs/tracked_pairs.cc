@@ -226,7 +226,7 @@ void TrackedPairs::Evaluate(PairSlot slot, std::uint64_t allowed, Finality final
   const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];
   if (!queries_.MayMeet(pair.lower, pair.higher)) return Drop(slot, Departure::kUnwatched);
   // One budget for all horizons, what is settled first.
-  const bool held = allowed < options_.work_units_per_evaluation;
+  const bool held = allowed < ClaimOf(slot).wanted;
   WorkBudget work(allowed, held ? WhenExhausted::kLeaveUndecided : WhenExhausted::kQueryOnce);
   const ContactTracker preview = evaluator_.Evaluate({a, b, pair}, finality, &work);
   pair.published.work += work.spent();

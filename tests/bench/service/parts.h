@@ -32,6 +32,9 @@ struct ServiceReport : RowReport<ServiceRow> {
 /// that answers at once without a thought.
 void LatencyPart(const ServiceSettings& settings, ServiceReport* report);
 
+/// Update to event beside a simulator whose many meshes overlap, and without it.
+void CrowdPart(const ServiceSettings& settings, ServiceReport* report);
+
 /// How many states a simulator sends on demand, of those that a stream would send.
 void MessagesPart(const ServiceSettings& settings, ServiceReport* report);
 
