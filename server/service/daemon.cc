@@ -167,13 +167,9 @@ class Daemon::Implementation {
     std::int64_t wait = due - world_.monotonic_ns();
     if (!world_.simulated()) {
       wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()));
-      // Pairs that wait leave the processor as long as a step may take them.
-      if (detector_.pairs_waiting() > 0) wait = std::min(wait, StepBudgetNs());
     }
     return std::chrono::nanoseconds(std::max<std::int64_t>(wait, 0));
   }
-
-  std::int64_t StepBudgetNs() const { return ToNanoseconds(1e-6 * config_.step_budget_us()); }
 
   /// Takes the time of this step and records what it applies. False: it could not be recorded.
   bool Begin(const ClockReading& reading, std::vector<v1::Input>* inputs) {

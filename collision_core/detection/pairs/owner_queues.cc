@@ -82,6 +82,19 @@ void OwnerQueues::Unlink(PairSlot slot) {
   --waiting_;
 }
 
+// A debt is at most one step's work, so that it is paid off within that many resolutions.
+void OwnerQueues::GrowCredit(double units, double owners, Instant now, Queue* owner) const {
+  if (owner->credited_at == Instant::Always()) {
+    owner->credit = units;
+  } else {
+    const double seconds = 1e-9 * static_cast<double>(now.nanoseconds() -
+                                                      owner->credited_at.nanoseconds());
+    const double more = units / owners * seconds / temporal_resolution_;
+    owner->credit = std::min(units, std::max(-units, owner->credit) + more);
+  }
+  owner->credited_at = now;
+}
+
 std::vector<PairTurn> OwnerQueues::Take(std::uint64_t units,
                                         const std::function<std::uint64_t(PairSlot)>& cost,
                                         Instant now) {
@@ -90,7 +103,10 @@ std::vector<PairTurn> OwnerQueues::Take(std::uint64_t units,
   for (auto at = next; at != waiting_owners_.end(); ++at) owners.push_back(at->second);
   for (auto at = waiting_owners_.begin(); at != next; ++at) owners.push_back(at->second);
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
-  for (std::size_t i = 0; i < owners.size(); ++i) candidates.push({0, i});
+  for (std::size_t i = 0; i < owners.size(); ++i) {
+    GrowCredit(static_cast<double>(units), static_cast<double>(owners.size()), now, owners[i]);
+    if (owners[i]->credit >= 0) candidates.push({0, i});
+  }
   const auto sharing = static_cast<std::uint32_t>(owners.size());
 
   std::vector<PairTurn> turns;
@@ -103,10 +119,11 @@ std::vector<PairTurn> OwnerQueues::Take(std::uint64_t units,
     const std::uint64_t takes = cost(slot);
     if (!turns.empty() && takes > left) break;
     left -= std::min(left, takes);
-    turns.push_back({slot, owner.work.owner});
+    turns.push_back({slot, owner.work.owner, takes});
+    owner.credit -= static_cast<double>(takes);
     last_turn_ = owner.work.owner;
     Unlink(slot);
-    if (owner.work.waiting > 0) candidates.push({taken + takes, order});
+    if (owner.work.waiting > 0 && owner.credit >= 0) candidates.push({taken + takes, order});
   }
   for (const auto& [id, owner] : waiting_owners_) {
     owner->work.held_since = std::min(owner->work.held_since, now);
@@ -116,11 +133,12 @@ std::vector<PairTurn> OwnerQueues::Take(std::uint64_t units,
   return turns;
 }
 
-void OwnerQueues::RecordEvaluation(const OwnerId& payer, std::uint64_t units) {
-  const auto owner = owners_.find(payer);
+void OwnerQueues::RecordEvaluation(const PairTurn& turn, std::uint64_t units) {
+  const auto owner = owners_.find(turn.payer);
   if (owner == owners_.end()) return;  // that was its last pair
   ++owner->second.work.evaluated;
   owner->second.work.work_units += units;
+  owner->second.credit += static_cast<double>(turn.cost) - static_cast<double>(units);
 }
 
 std::vector<OwnerWork> OwnerQueues::work() const {

@@ -15,6 +15,7 @@ namespace collision::detection {
 struct PairTurn {
   PairSlot slot;
   OwnerId payer;
+  std::uint64_t cost = 0;  ///< As it was expected.
 
   friend auto operator<=>(const PairTurn&, const PairTurn&) = default;
 };
@@ -22,8 +23,13 @@ struct PairTurn {
 /// Gives pairs their turns: first each owner gets its share, then of its pairs those that have
 /// waited longest. An owner takes the next turn when it has had less work in this step than any
 /// other; so one with thousands of pairs leaves every other its share, and what an owner does not
-/// want goes to the others. A pair is evaluated again only after all that its payer had waiting
+/// want in a step goes to the others. A pair is evaluated again only after all that its payer had waiting
 /// before it: none starves.
+///
+/// Each owner also has a credit of at most one step's work, which grows by its share of one step's
+/// work in each temporal resolution of `now`, and out of which it pays. So one that wants little is
+/// served in whatever step it wants something, and one that always wants more than its share gets
+/// that and no more, however fast steps follow each other.
 ///
 /// Of the two owners of a pair the one with more tracked pairs pays, or the one with the lower id:
 /// a simulator that puts many agents in the way of another one's pays for all these pairs itself.
@@ -31,6 +37,9 @@ struct PairTurn {
 /// Single-threaded and deterministic. All operations are O(log owners), but for Take().
 class OwnerQueues {
  public:
+  /// Δt [s].
+  explicit OwnerQueues(double temporal_resolution) : temporal_resolution_(temporal_resolution) {}
+
   /// A pair of agents of these owners is tracked from now on, or no longer. Requires that the slot
   /// is free, or taken.
   void AddPair(PairSlot slot, const OwnerId& a, const OwnerId& b);
@@ -43,12 +52,12 @@ class OwnerQueues {
   std::size_t waiting() const { return waiting_; }
 
   /// Takes the pairs whose turn it is in this step, by slot: as many as `units` pay for at `cost`
-  /// each, and at least one if any waits. O(t log(owners) + t log t) for t turns.
+  /// each, and at least one if any owner has credit. O(t log(owners) + t log t) for t turns.
   std::vector<PairTurn> Take(std::uint64_t units,
                              const std::function<std::uint64_t(PairSlot)>& cost, Instant now);
 
-  /// The owner's pairs were evaluated so often, which took `units`.
-  void RecordEvaluation(const OwnerId& payer, std::uint64_t units);
+  /// The pair was evaluated, which took `units`.
+  void RecordEvaluation(const PairTurn& turn, std::uint64_t units);
 
   /// Who pays for a pair: see above.
   OwnerId PayerOf(PairSlot slot) const;
@@ -63,6 +72,8 @@ class OwnerQueues {
   struct Queue {
     OwnerWork work;
     std::uint32_t pairs = 0;  // tracked, of any payer
+    double credit = 0;        // [units]; < 0: debt
+    Instant credited_at = Instant::Always();
     PairSlot first = PairSlot::None(), last = PairSlot::None();
   };
   /// A tracked pair; linked into the queue of its payer while it waits.
@@ -74,9 +85,11 @@ class OwnerQueues {
   };
 
   Queue* PayerOf(const Entry& entry) const;
+  void GrowCredit(double units, double owners, Instant now, Queue* owner) const;
   void Unlink(PairSlot slot);
   void Leave(Queue* owner);
 
+  const double temporal_resolution_;
   std::map<OwnerId, Queue> owners_;           // with at least one tracked pair
   std::map<OwnerId, Queue*> waiting_owners_;  // with at least one waiting pair
   IndexedVector<PairSlot, Entry> entries_;

@@ -65,6 +65,7 @@ TrackedPairs::TrackedPairs(const DetectorOptions& options, const DetectorContext
       table_(options.pairs_max, options.pairs_per_agent_max),
       evaluator_(context),
       budget_(options.work_units_per_evaluation, options.work_units_per_step),
+      owners_(options.temporal_resolution),
       announcer_(options, context.counters) {}
 
 void TrackedPairs::ForgetAgent(AgentIndex agent) {
@@ -127,7 +128,7 @@ void TrackedPairs::EvaluateDuePairs() {
              Finality::kOngoing);
     const std::uint64_t units = context_.counters->work_units - before;
     if (limited) budget_.Spent(units);
-    owners_.RecordEvaluation(turn.payer, units);
+    owners_.RecordEvaluation(turn, units);
     context_.clock.MadeProgress();
   }
   for (; postponed != unannounced.end(); ++postponed) Announce(*postponed);

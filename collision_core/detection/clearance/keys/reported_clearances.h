@@ -45,6 +45,7 @@ class ReportedClearances {
  private:
   struct Report {
     std::optional<AgentClearance> last;
+    Instant clear_until = Instant::Never();  // of `last`, were the agent not saturated
     ClearanceCause cause = ClearanceCause::kNone;  // since then
     AgentId cause_agent;
     Instant void_from = Instant::Never();
@@ -52,7 +53,10 @@ class ReportedClearances {
   };
 
   void RecordCause(const AgentClearance& cause, Report* report) const;
-  std::optional<AgentClearance> TakeChange(AgentIndex agent);
+  AgentClearance OfPairs(AgentIndex agent) const;
+  void Saturate(AgentClearance* clearance) const;
+  AgentClearance Repeat(AgentIndex agent) const;
+  std::optional<AgentClearance> TakeChange(AgentIndex agent, bool dirty);
 
   const DetectorContext context_;
   const PairTable& pairs_;
