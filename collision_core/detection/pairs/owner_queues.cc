@@ -87,8 +87,8 @@ void OwnerQueues::GrowCredit(double units, double owners, Instant now, Queue* ow
   if (owner->credited_at == Instant::Always()) {
     owner->credit = units;
   } else {
-    const double seconds = 1e-9 * static_cast<double>(now.nanoseconds() -
-                                                      owner->credited_at.nanoseconds());
+    const double seconds =
+        1e-9 * static_cast<double>(now.nanoseconds() - owner->credited_at.nanoseconds());
     const double more = units / owners * seconds / temporal_resolution_;
     owner->credit = std::min(units, std::max(-units, owner->credit) + more);
   }

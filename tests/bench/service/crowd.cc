@@ -20,10 +20,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::chrono::nanoseconds kPeriod{1'000'000'000 / 60};
-constexpr double kSpread = 0.5;      // of the places [m]
-constexpr double kSwing = 0.1;       // [m]
-constexpr double kSwingRate = 2;     // [rad/s]
-constexpr double kAway = -10'000;    // from the other simulator's agents [m]
+constexpr double kSpread = 0.5;    // of the places [m]
+constexpr double kSwing = 0.1;     // [m]
+constexpr double kSwingRate = 2;   // [rad/s]
+constexpr double kAway = -10'000;  // from the other simulator's agents [m]
 constexpr std::uint32_t kBeside = 100;
 constexpr double kJoinSeconds = 20;
 constexpr double kAnswerSeconds = 5;
@@ -53,8 +53,8 @@ struct Place {
 };
 
 client::State StateAt(const Place& place, std::int64_t stamp_ns) {
-  const double angle = kSwingRate * 1e-9 * static_cast<double>(stamp_ns % 1'000'000'000'000) +
-                       place.phase;
+  const double angle =
+      kSwingRate * 1e-9 * static_cast<double>(stamp_ns % 1'000'000'000'000) + place.phase;
   client::State state{.stamp_ns = stamp_ns};
   for (std::size_t i = 0; i < 3; ++i) {
     state.position_m[i] = place.at[i] + place.swing[i] * std::sin(angle);
@@ -110,8 +110,8 @@ std::optional<Latency> Measure(const ServiceSettings& settings, bool crowded) {
 void Tell(const char* name, const Latency& latency, ServiceReport* report) {
   report->Add({Padded("crowd/" + std::string(name), 26) +
                    Padded("p50 " + SecondsText(latency.p50), 15) +
-                   Padded("p99 " + SecondsText(latency.p99), 15) +
-                   std::to_string(latency.events) + " events",
+                   Padded("p99 " + SecondsText(latency.p99), 15) + std::to_string(latency.events) +
+                   " events",
                {Text("part", "crowd"), Text("beside", name), Number("event_p50_s", latency.p50),
                 Number("event_p99_s", latency.p99),
                 Number("events", static_cast<double>(latency.events))}});

@@ -45,7 +45,7 @@ class ReportedClearances {
  private:
   struct Report {
     std::optional<AgentClearance> last;
-    Instant clear_until = Instant::Never();  // of `last`, were the agent not saturated
+    Instant clear_until = Instant::Never();        // of `last`, were the agent not saturated
     ClearanceCause cause = ClearanceCause::kNone;  // since then
     AgentId cause_agent;
     Instant void_from = Instant::Never();

@@ -50,8 +50,8 @@ Seen Fly(std::uint32_t crowd, double seconds) {
     Vector3d p, v;
   };
   std::vector<Mover> movers;
-  const auto put = [&](const OwnerId& owner, const AgentDeclaration& declaration,
-                       const Vector3d& p, const Vector3d& v) {
+  const auto put = [&](const OwnerId& owner, const AgentDeclaration& declaration, const Vector3d& p,
+                       const Vector3d& v) {
     const AgentId id = IdOf(owner, static_cast<std::uint32_t>(movers.size()));
     detector.Admit(id, declaration, State(0, p, v), At(0));
     movers.push_back({id, p, v});

@@ -26,8 +26,8 @@ class OwnerQueuesTest : public testing::Test {
   std::vector<std::uint32_t> Take(std::uint64_t units, double steps = 1) {
     now_ += steps * kStep;
     std::vector<std::uint32_t> slots;
-    for (const PairTurn& turn :
-         queues_.Take(units, [](PairSlot) { return std::uint64_t{10}; }, At(now_))) {
+    for (const PairTurn& turn : queues_.Take(
+             units, [](PairSlot) { return std::uint64_t{10}; }, At(now_))) {
       slots.push_back(turn.slot.value());
       queues_.RecordEvaluation(turn, 10);
     }
