@@ -65,14 +65,8 @@ void ReportedClearances::NotifyPartner(AgentIndex agent, AgentIndex cause) {
 }
 
 AgentClearance ReportedClearances::Of(AgentIndex agent) const {
-  AgentClearance clearance = OfPairs(agent);
-  Saturate(&clearance);
-  return clearance;
-}
-
-// What does not depend on now.
-AgentClearance ReportedClearances::OfPairs(AgentIndex agent) const {
   const AgentRecord& record = context_.agents[agent];
+  const Instant now = context_.clock.now;
   AgentClearance clearance;
   clearance.agent = record.id;
   clearance.effective_from = reports_.at(agent).effective_from;
@@ -91,32 +85,14 @@ AgentClearance ReportedClearances::OfPairs(AgentIndex agent) const {
     }
   }
   if (record.expired) clearance.clear_until = record.bound().state.expiry;
+  if (clearance.saturated) clearance.clear_until = std::min(clearance.clear_until, now);
+  clearance.not_clear = clearance.clear_until <= now;
   return clearance;
 }
 
-void ReportedClearances::Saturate(AgentClearance* clearance) const {
-  const Instant now = context_.clock.now;
-  if (clearance->saturated) clearance->clear_until = std::min(clearance->clear_until, now);
-  clearance->not_clear = clearance->clear_until <= now;
-}
-
-// Nothing but now has changed since the last one: the agent's pairs need not be walked.
-AgentClearance ReportedClearances::Repeat(AgentIndex agent) const {
-  const Report& report = reports_.at(agent);
-  AgentClearance clearance = *report.last;
-  clearance.clear_until = report.clear_until;
-  clearance.effective_from = report.effective_from;
-  clearance.cause = ClearanceCause::kNone;
-  clearance.cause_agent = AgentId{};
-  clearance.void_from = Instant::Never();
-  return clearance;
-}
-
-std::optional<AgentClearance> ReportedClearances::TakeChange(AgentIndex agent, bool dirty) {
+std::optional<AgentClearance> ReportedClearances::TakeChange(AgentIndex agent) {
   Report& report = reports_.at(agent);
-  AgentClearance clearance = dirty || !report.last ? OfPairs(agent) : Repeat(agent);
-  report.clear_until = clearance.clear_until;
-  Saturate(&clearance);
+  AgentClearance clearance = Of(agent);
   const bool lowered = report.last && clearance.clear_until < report.last->clear_until;
   const bool voided = !report.void_from.is_never();
   const bool changed = !report.last || !Same(clearance, *report.last) || voided;
@@ -137,23 +113,20 @@ std::optional<AgentClearance> ReportedClearances::TakeChange(AgentIndex agent, b
 // Only agents whose key, pairs or contacts have changed can have another clearance, and the
 // saturated ones, whose clearance is always now.
 std::vector<AgentClearance> ReportedClearances::TakeChanged() {
-  const std::size_t dirty = context_.clearances_dirty->size();
   for (const AgentIndex agent : coverage_.saturated()) context_.clearances_dirty->Insert(agent);
-  std::vector<std::pair<AgentIndex, bool>> agents;
-  std::size_t place = 0;
+  std::vector<AgentIndex> agents;
   for (const AgentIndex agent : *context_.clearances_dirty) {
-    const bool is_dirty = place++ < dirty;
     if (context_.agents.Contains(agent) && context_.agents[agent].removal == 0) {
-      agents.emplace_back(agent, is_dirty);
+      agents.push_back(agent);
     }
   }
   context_.clearances_dirty->Clear();
-  std::sort(agents.begin(), agents.end(), [this](const auto& a, const auto& b) {
-    return context_.agents[a.first].id < context_.agents[b.first].id;
+  std::sort(agents.begin(), agents.end(), [this](AgentIndex a, AgentIndex b) {
+    return context_.agents[a].id < context_.agents[b].id;
   });
   std::vector<AgentClearance> changed;
-  for (const auto& [agent, is_dirty] : agents) {
-    if (const auto change = TakeChange(agent, is_dirty)) changed.push_back(*change);
+  for (const AgentIndex agent : agents) {
+    if (const auto change = TakeChange(agent)) changed.push_back(*change);
   }
   return changed;
 }

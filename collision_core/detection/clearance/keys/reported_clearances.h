@@ -45,7 +45,6 @@ class ReportedClearances {
  private:
   struct Report {
     std::optional<AgentClearance> last;
-    Instant clear_until = Instant::Never();        // of `last`, were the agent not saturated
     ClearanceCause cause = ClearanceCause::kNone;  // since then
     AgentId cause_agent;
     Instant void_from = Instant::Never();
@@ -53,10 +52,7 @@ class ReportedClearances {
   };
 
   void RecordCause(const AgentClearance& cause, Report* report) const;
-  AgentClearance OfPairs(AgentIndex agent) const;
-  void Saturate(AgentClearance* clearance) const;
-  AgentClearance Repeat(AgentIndex agent) const;
-  std::optional<AgentClearance> TakeChange(AgentIndex agent, bool dirty);
+  std::optional<AgentClearance> TakeChange(AgentIndex agent);
 
   const DetectorContext context_;
   const PairTable& pairs_;
