@@ -114,7 +114,7 @@ void TrackedPairs::EvaluateDuePairs() {
   const std::vector<PairSlot> unannounced = RetractPostponed();
   if (limited) {
     std::vector<PairClaim> claims;
-    for (const PairTurn& turn : turns) claims.push_back({ClaimOf(turn.slot), turn.payer});
+    for (const PairTurn& turn : turns) claims.push_back({ClaimOf(turn), turn.payer});
     budget_.Start(claims);
   }
   // Pairs by slot, which is the order of events.
@@ -206,6 +206,14 @@ std::uint64_t TrackedPairs::TurnCostOf(PairSlot slot) const {
   const std::uint64_t most =
       std::min(budget_.per_step() / kTurnsPerStep, options_.work_units_per_evaluation);
   return std::max(kShapesTurnMin, pair.evaluated_step == 0 ? 0 : std::min(pair.spent, most));
+}
+
+// While no pair waits each claims no more than it is expected to spend, so that all that is left is
+// there for those that need more, and a budget that is not used up limits none.
+WorkClaim TrackedPairs::ClaimOf(const PairTurn& turn) const {
+  WorkClaim claim = ClaimOf(turn.slot);
+  if (owners_.waiting() == 0) claim.wanted = std::min(claim.wanted, turn.cost);
+  return claim;
 }
 
 WorkClaim TrackedPairs::ClaimOf(PairSlot slot) const {

@@ -98,6 +98,7 @@ class TrackedPairs {
   void FindFirstClearance(PairSlot slot);
   void Announce(PairSlot slot);
   std::uint64_t TurnCostOf(PairSlot slot) const;
+  WorkClaim ClaimOf(const PairTurn& turn) const;
   WorkClaim ClaimOf(PairSlot slot) const;
   std::uint64_t AllowedAtLast(const OwnerId& payer);
   void Evaluate(PairSlot slot, std::uint64_t allowed, Finality finality);

@@ -24,7 +24,7 @@ constexpr OwnerId kHonest{1, 1}, kGreedy{2, 1};
 
 struct Seen {
   std::vector<CollisionEvent> honest;
-  std::set<std::pair<AgentId, AgentId>> announced;  // of the crowd
+  std::set<std::pair<AgentId, AgentId>> announced, decided;  // of the crowd
   std::map<AgentId, Instant> clear_until;
   std::uint64_t most = 0;  // units in one step
   std::size_t progress = 0;
@@ -78,6 +78,7 @@ Seen Fly(std::uint32_t crowd, double seconds) {
         seen.honest.push_back(event);
       } else {
         seen.announced.insert({event.lower, event.higher});
+        if (event.status != EventStatus::kPossible) seen.decided.insert({event.lower, event.higher});
       }
     }
     for (const AgentClearance& clearance : detector.TakeChangedClearances()) {
@@ -118,8 +119,9 @@ TEST(GreedyOwner, HasAllItsPairsAnnouncedAtOnceAndEvaluatedInTurn) {
   for (const auto& [agent, clear_until] : first.clear_until) {
     EXPECT_TRUE(OwnerOf(agent) == kHonest || clear_until <= At(0)) << agent.slot;
   }
-  const Seen last = Fly(kCrowd, 7);
-  EXPECT_GT(last.greedy.evaluated, kCrowd * (kCrowd - 1) / 2) << "each once at least";
+  const Seen last = Fly(kCrowd, 10);
+  EXPECT_GT(last.greedy.evaluated, 2u * kCrowd * (kCrowd - 1) / 2) << "each more than once";
+  EXPECT_EQ(last.decided.size(), kCrowd * (kCrowd - 1) / 2) << "each pair has an outcome";
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ class OwnerQueuesTest : public testing::Test {
     return slots;
   }
 
-  const OwnerWork WorkOf(const OwnerId& owner) const {
+  OwnerWork WorkOf(const OwnerId& owner) const {
     for (const OwnerWork& work : queues_.work()) {
       if (work.owner == owner) return work;
     }
@@ -57,15 +57,27 @@ TEST_F(OwnerQueuesTest, OwnersTakeTurnsWhateverTheirPairs) {
 }
 
 TEST_F(OwnerQueuesTest, NoPairComesAgainBeforeAllThatWaited) {
-  for (std::uint32_t slot = 0; slot < 5; ++slot) Add(slot, kMany, kMany);
-  std::map<std::uint32_t, int> turns;
-  for (int step = 0; step < 5; ++step) {
-    for (const std::uint32_t slot : Take(20)) {
+  constexpr std::uint32_t kPairs = 5;
+  constexpr int kSteps = 30;
+  std::map<std::uint32_t, int> since, turns;  // the step in which each began to wait
+  for (std::uint32_t slot = 0; slot < kPairs; ++slot) Add(slot, kMany, kMany), since[slot] = 0;
+  for (int step = 1; step <= kSteps; ++step) {
+    const Slots taken = Take(20);
+    ASSERT_EQ(taken.size(), 2u) << step;
+    int latest = 0;
+    for (const std::uint32_t slot : taken) {
+      latest = std::max(latest, since[slot]);
+      EXPECT_LE(step - since[slot], 3) << "two of five each step: pair " << slot;
       ++turns[slot];
+      since[slot] = step;
       queues_.Wait(PairSlot(slot));
     }
+    for (const auto& [slot, at] : since) EXPECT_GE(at, latest) << step << ": pair " << slot;
   }
-  for (std::uint32_t slot = 0; slot < 5; ++slot) EXPECT_NEAR(turns[slot], 2, 1) << slot;
+  // Within a step pairs begin to wait in the order of their slots.
+  for (std::uint32_t slot = 0; slot < kPairs; ++slot) {
+    EXPECT_GE(turns[slot], kSteps / 3) << slot;
+  }
 }
 
 TEST_F(OwnerQueuesTest, TheOwnerWithMorePairsPaysForThoseOfBoth) {
