@@ -90,9 +90,9 @@ class Detector {
   /// now + announce_within is tracked, and events() holds what is new. Pairs for which the step has
   /// no work left wait for the next one (pairs_waiting()).
   ///
-  /// `progress`, if there is one, is called after each bounded piece of work: each query of an agent
-  /// and each evaluation of a pair, so that the caller knows that a long step goes on. It may read
-  /// the detector's counts and nothing else of it.
+  /// `progress`, if there is one, is called after each bounded piece of work: each query of an
+  /// agent and each evaluation of a pair, so that the caller knows that a long step goes on. It may
+  /// read the detector's counts and nothing else of it.
   void Advance(Instant now, const std::function<void()>& progress = nullptr);
 
   /// The revisions made by the last Advance(), in their order; valid until the next one.

@@ -75,7 +75,8 @@ class Announcer {
   PairInterest Report(const PairName& pair, const PairOutlook& outlook, Finality finality,
                       ProximitySource* proximity, PublishedEvent* published);
 
-  /// The pair may meet soon, and nothing more is known of it yet. Requires that it is not announced.
+  /// The pair may meet soon, and nothing more is known of it yet. Requires that it is not
+  /// announced.
   void Announce(const PairName& pair, Instant free_until, bool began_before,
                 PublishedEvent* published);
 

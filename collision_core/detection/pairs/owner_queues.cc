@@ -4,6 +4,8 @@
 #include <queue>
 #include <tuple>
 
+#include "collision_core/numeric/seconds.h"
+
 namespace collision::detection {
 namespace {
 
@@ -87,8 +89,7 @@ void OwnerQueues::GrowCredit(double units, double owners, Instant now, Queue* ow
   if (owner->credited_at == Instant::Always()) {
     owner->credit = units;
   } else {
-    const double seconds =
-        1e-9 * static_cast<double>(now.nanoseconds() - owner->credited_at.nanoseconds());
+    const double seconds = numeric::SecondsBetween(owner->credited_at, now).lower;
     const double more = units / owners * seconds / temporal_resolution_;
     owner->credit = std::min(units, std::max(-units, owner->credit) + more);
   }

@@ -23,8 +23,8 @@ struct PairTurn {
 /// Gives pairs their turns: first each owner gets its share, then of its pairs those that have
 /// waited longest. An owner takes the next turn when it has had less work in this step than any
 /// other; so one with thousands of pairs leaves every other its share, and what an owner does not
-/// want in a step goes to the others. A pair is evaluated again only after all that its payer had waiting
-/// before it: none starves.
+/// want in a step goes to the others. A pair is evaluated again only after all that its payer had
+/// waiting before it: none starves.
 ///
 /// Each owner also has a credit of at most one step's work, which grows by its share of one step's
 /// work in each temporal resolution of `now`, and out of which it pays. So one that wants little is

@@ -30,7 +30,8 @@ struct ReleasedPair {
 ///
 /// A step evaluates no more pairs than its budget pays for (OwnerQueues says which). The others
 /// wait: what was certified of them still holds, though newer states would tell more, and one that
-/// may meet soon is announced. An evaluation that gets less than it wants leaves the rest undecided.
+/// may meet soon is announced. An evaluation that gets less than it wants leaves the rest
+/// undecided.
 ///
 /// A pair is due at every step while contact is possible within Δt, while it is to be announced, in
 /// a contact that may end, and when an ended contact is settled. Beyond kPairsEvaluatedEachStep

@@ -1,5 +1,6 @@
 // Goal:   a simulator whose pairs want more than their share is named in the status, with its share
-//         and for how long, until none waits; a long step tells that it goes on, which changes nothing.
+//         and for how long, until none waits; a long step tells that it goes on, which changes
+//         nothing.
 // Method: balls of one simulator at one place, under the smallest step budget there is.
 #include <gtest/gtest.h>
 

@@ -78,7 +78,8 @@ Seen Fly(std::uint32_t crowd, double seconds) {
         seen.honest.push_back(event);
       } else {
         seen.announced.insert({event.lower, event.higher});
-        if (event.status != EventStatus::kPossible) seen.decided.insert({event.lower, event.higher});
+        if (event.status != EventStatus::kPossible)
+          seen.decided.insert({event.lower, event.higher});
       }
     }
     for (const AgentClearance& clearance : detector.TakeChangedClearances()) {
