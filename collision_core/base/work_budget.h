@@ -20,27 +20,39 @@ inline constexpr std::uint64_t kBoxPairUnits = 1;    ///< The boxes of two trian
 inline constexpr std::uint64_t kCrossingUnits = 4;   ///< Whether two triangles cross.
 inline constexpr std::uint64_t kWindingUnits = 100;  ///< One winding number.
 inline constexpr std::uint64_t kPoseUnits = 50;      ///< Posing two bodies at an instant.
+/// What a segment of time of two bodies costs beside its queries; counted where the budget bounds
+/// the work (WhenExhausted::kLeaveUndecided).
+inline constexpr std::uint64_t kSegmentUnits = 200;
 
 /// A budget is overrun by less than this. A step costs at most 243 units (all triangles of two
 /// blocks measured, separation_search.cc), and every query evaluates at least one instant, which
 /// costs a pose and a pair of balls.
 inline constexpr std::uint64_t kBatchUnits = 243 + kPoseUnits + 1;
 
+/// What becomes of the intervals of time that are left when a budget for several is exhausted.
+enum class WhenExhausted {
+  kQueryOnce,      ///< Each gets one query, beyond the budget.
+  kLeaveUndecided  ///< All of them are undecided, at no cost, so that the budget bounds the work.
+};
+
 /// Counts work against a limit. A step that has begun is finished, so the work spent exceeds the
 /// limit by less than kBatchUnits.
 class WorkBudget {
  public:
-  explicit WorkBudget(std::uint64_t allowed) : allowed_(allowed) {}
+  explicit WorkBudget(std::uint64_t allowed, WhenExhausted then = WhenExhausted::kQueryOnce)
+      : allowed_(allowed), then_(then) {}
 
   void Spend(std::uint64_t units) { spent_ += units; }
   std::uint64_t spent() const { return spent_; }
   std::uint64_t left() const { return spent_ < allowed_ ? allowed_ - spent_ : 0; }
   bool exhausted() const { return spent_ >= allowed_; }
+  WhenExhausted when_exhausted() const { return then_; }
 
  private:
   friend class WorkShare;
   std::uint64_t allowed_;
   std::uint64_t spent_ = 0;
+  WhenExhausted then_;
 };
 
 /// While this object exists, only `share` (0 to 1) of the work that is left may be spent, so that

@@ -32,7 +32,9 @@ void Detector::SetPairShare(const OwnerId& owner, const Share& share) {
 void Detector::VoidOwner(const OwnerId& owner, Instant from) {
   implementation_->VoidOwner(owner, from);
 }
-void Detector::Advance(Instant now) { implementation_->Advance(now); }
+void Detector::Advance(Instant now, const std::function<void()>& progress) {
+  implementation_->Advance(now, progress);
+}
 const std::vector<CollisionEvent>& Detector::events() const {
   return implementation_->pairs().events();
 }
@@ -47,6 +49,10 @@ EarliestAnswer Detector::Earliest(std::size_t queries_max) const {
 }
 std::size_t Detector::agents() const { return implementation_->agents().size(); }
 std::size_t Detector::pairs_tracked() const { return implementation_->pairs().table().size(); }
+std::size_t Detector::pairs_waiting() const { return implementation_->pairs().waiting(); }
+std::vector<OwnerWork> Detector::owner_work() const {
+  return implementation_->pairs().owner_work();
+}
 std::size_t Detector::queued() const { return implementation_->queued(); }
 const DetectorCounters& Detector::counters() const { return implementation_->counters(); }
 Detector::Profile Detector::profile() const { return implementation_->DescribeScene(); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "collision_core/detection/clearance/keys/agent_clearance.h"
 #include "collision_core/detection/earliest/earliest_answer.h"
 #include "collision_core/detection/events/collision_event.h"
+#include "collision_core/detection/pairs/owner_work.h"
 #include "collision_core/detection/step/detector_counters.h"
 #include "collision_core/detection/step/detector_options.h"
 #include "collision_core/motion/contract.h"
@@ -93,8 +95,13 @@ class Detector {
   void VoidOwner(const OwnerId& owner, Instant from);
 
   /// Brings everything to `now` (never backward): afterwards every pair that may meet before
-  /// now + announce_within is tracked, and events() holds what is new.
-  void Advance(Instant now);
+  /// now + announce_within is tracked, and events() holds what is new. Pairs for which the step has
+  /// no work left wait for the next one (pairs_waiting()).
+  ///
+  /// `progress`, if there is one, is called after each bounded piece of work: each query of an
+  /// agent and each evaluation of a pair, so that the caller knows that a long step goes on. It may
+  /// read the detector's counts and nothing else of it.
+  void Advance(Instant now, const std::function<void()>& progress = nullptr);
 
   /// The revisions made by the last Advance(), in their order; valid until the next one.
   const std::vector<CollisionEvent>& events() const;
@@ -119,6 +126,10 @@ class Detector {
 
   std::size_t agents() const;
   std::size_t pairs_tracked() const;
+  /// Of these, pairs that wait for their evaluation since the last step's work was used up.
+  std::size_t pairs_waiting() const;
+  /// What the narrow phase has done for each owner that has tracked pairs.
+  std::vector<OwnerWork> owner_work() const;
   /// Entries that wait for their time: agents to be queried again, pairs to be evaluated, expiries.
   std::size_t queued() const;
   const DetectorCounters& counters() const;

@@ -183,7 +183,8 @@ void Detector::Implementation::Tighten(AgentIndex agent) {
 
 // Agents that leave or expire may have met others since the last step: they are queried first and
 // evaluated after that.
-void Detector::Implementation::Advance(Instant now) {
+void Detector::Implementation::Advance(Instant now, const std::function<void()>& progress) {
+  clock_.progress = progress;
   clock_.now = std::max(clock_.now, now);
   ++clock_.step;
   pairs_.StartStep();
@@ -192,6 +193,7 @@ void Detector::Implementation::Advance(Instant now) {
   pairs_.EvaluateDuePairs();
   clearances_.Cover(pairs_.TakeReleased());
   ForgetPast();
+  clock_.progress = nullptr;
 #ifndef NDEBUG
   Validate();
 #endif

@@ -26,7 +26,7 @@ class Detector::Implementation {
   void SetHeardUntil(const OwnerId& owner, Instant until) { agents_.SetHeardUntil(owner, until); }
   void SetPairShare(const OwnerId& owner, const Share& share) { pairs_.SetShare(owner, share); }
   void VoidOwner(const OwnerId& owner, Instant from);
-  void Advance(Instant now);
+  void Advance(Instant now, const std::function<void()>& progress);
 
   std::vector<AgentClearance> TakeChangedClearances() { return clearances_.TakeChanged(); }
   std::optional<AgentClearance> ClearanceOf(const AgentId& id) const;

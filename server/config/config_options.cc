@@ -140,9 +140,13 @@ constexpr ConfigOption kOptions[] = {
      "shape. A pair that runs out of it gets wider brackets; its events say limited by budget. 0: "
      "sphere trees are not refined. It is counted in work units, so that a replay stops where the "
      "recorded run did, on any machine."},
-    {"step_budget_us", "us", "0", "1000000", "", "0",
-     "Budget for all pairs together in one step, shared so that no pair starves: pairs that are "
-     "announced and undecided get more. 0: no limit but time_budget_us for each pair."},
+    {"step_budget_us", "us", "0", "1000000", "", "100000",
+     "Budget for all pairs together in one step, balls as well. It is shared first among "
+     "simulators, then among the pairs of each: pairs that are announced and undecided get more. "
+     "Pairs beyond it wait for the next step, in turn, and are clear as far as was certified "
+     "before. "
+     "0: no limit but time_budget_us for each pair.",
+     "2000"},
     {"work_units_per_us", "work units", "1", "1000000", "", "20",
      "Turns time_budget_us and step_budget_us into work units. collisiond --calibrate measures it "
      "on this machine."},

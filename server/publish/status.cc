@@ -121,6 +121,7 @@ void AddDetection(const StatusSources& sources, v1::ServiceStatus* status) {
   Count("method_changes", detector.method_changes, status);
   Count("segments", detector.segments, status);
   Count("work_units", detector.work_units, status);
+  Count("pairs_waiting", sources.detector.pairs_waiting(), status);
   Count("evaluations_cut_short", detector.evaluations_cut_short, status);
   Count("saturations", detector.saturations, status);
 }

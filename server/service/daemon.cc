@@ -23,6 +23,7 @@
 #include "server/service/detector_options.h"
 #include "server/service/operator_commands.h"
 #include "server/service/roster_journal.h"
+#include "server/service/share_report.h"
 #include "server/service/silence_report.h"
 #include "server/shapes/shape_store.h"
 
@@ -54,6 +55,7 @@ class Daemon::Implementation {
         quarantine_(parts.quarantine),
         state_failure_(parts.state_failure),
         claim_(parts.claim),
+        progress_(std::move(parts.progress)),
         shape_builder_(parts.shape_builder
                            ? std::move(parts.shape_builder)
                            : std::make_unique<InlineShapeBuilder>(BuildOptionsOf(config_))),
@@ -109,7 +111,9 @@ class Daemon::Implementation {
     full_batches_.Take(inputs, config_.inputs_per_batch_max());
     if (!full_batches_.holds_clocks()) intake_.TakeClocks();
     rounds_.ApplyKept();
-    const bool restarts = ObeyOperators(inputs);
+    // A standby does what the service in force is asked.
+    const bool restarts = claim_.works() && operators_.ObeyAll(inputs);
+    if (operators_.TakeNews()) schedule_.Hasten();
     const bool removed = RemoveSilent();
     ReportSilence(world_.ReleaseSilent());
     MoveOn(!inputs.empty() || removed);
@@ -244,17 +248,6 @@ class Daemon::Implementation {
     return config_.on_state_failure() != v1::Config::END;
   }
 
-  /// True: the world's time is to begin anew. A standby does what the service in force is asked.
-  bool ObeyOperators(const std::vector<v1::Input>& inputs) {
-    bool restarts = false;
-    if (!claim_.works()) return restarts;
-    for (const v1::Input& input : inputs) {
-      if (input.has_operator_command()) restarts |= operators_.Obey(input.operator_command());
-    }
-    if (operators_.TakeNews()) schedule_.Hasten();
-    return restarts;
-  }
-
   /// Removes simulators that were silent for too long. False: there was none.
   bool RemoveSilent() {
     const std::vector<std::uint64_t> overdue =
@@ -344,7 +337,11 @@ class Daemon::Implementation {
     if (!world_.started()) return;
     if (world_.simulated() && !inputs && world_.now() == advanced_to_) return;
     advanced_to_ = world_.now();
-    detector_.Advance(world_.now());
+    detector_.Advance(world_.now(), [this] {
+      if (progress_ && progress_()) SendStatus();
+    });
+    if (shares_.Take(detector_.owner_work(), world_)) schedule_.Hasten();
+    shares_.Write(world_.monotonic_ns());
     for (const detection::AgentClearance& clearance : detector_.TakeChangedClearances()) {
       world_.SetClearance(clearance);
     }
@@ -368,7 +365,11 @@ class Daemon::Implementation {
   }
 
   void PublishStatus() {
-    if (claim_.phase() == ClaimPhase::kWaking || !schedule_.Take(world_)) return;
+    if (claim_.phase() == ClaimPhase::kWaking) return;
+    if (schedule_.Take(world_)) SendStatus();
+  }
+
+  void SendStatus() {
     detection::DetectorCounters counted = past_;
     counted += detector_.counters();
     publisher_.PublishStatus(
@@ -391,6 +392,7 @@ class Daemon::Implementation {
     std::vector<v1::KeyValue> extensions;
     silence_report_.AddExtensions(&extensions);
     operators_.AddExtensions(&extensions);
+    shares_.AddExtensions(&extensions);
     const auto add = [&extensions](const char* key, const std::string& what) {
       if (what.empty()) return;
       v1::KeyValue& failure = extensions.emplace_back();
@@ -412,6 +414,7 @@ class Daemon::Implementation {
   Quarantine* const quarantine_;  ///< Null: none.
   std::string state_failure_;     ///< Empty: what must be kept is kept.
   ServiceClaim claim_;
+  const std::function<bool()> progress_;  ///< As in DaemonParts.
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   World world_;
   ShapeStore shapes_;
@@ -427,6 +430,7 @@ class Daemon::Implementation {
   Rate query_rate_;
   StepCounters steps_;
   SilenceReport silence_report_{config_.clock().on_silent_simulator() == v1::Clock::RELEASE};
+  ShareReport shares_;
   std::optional<ClockStep> clock_step_;  ///< Of this step.
   std::optional<Instant> advanced_to_;
   Instant heard_granted_ = Instant::Always();  ///< By another service.

@@ -30,6 +30,9 @@ struct DaemonParts {
   Quarantine* quarantine = nullptr;  ///< Notes which message is applied, for the next start.
   std::string state_failure = {};    ///< Why there is no journal, if one was wanted.
   ClaimOptions claim = {};           ///< By default it serves from the first step.
+  /// Called while a step goes on, after each bounded piece of the detector's work. True: a status
+  /// is published now, in the middle of the step. Decides nothing else.
+  std::function<bool()> progress = nullptr;
 };
 
 /// Owns the parts of the service and runs them in steps, on one thread. A step

@@ -25,6 +25,15 @@ class OperatorCommands {
   /// time is to begin anew, and every run that was in it has been ended.
   bool Obey(const v1::OperatorCommand& command);
 
+  /// The same for all commands of a batch.
+  bool ObeyAll(const std::vector<v1::Input>& inputs) {
+    bool restarts = false;
+    for (const v1::Input& input : inputs) {
+      if (input.has_operator_command()) restarts |= Obey(input.operator_command());
+    }
+    return restarts;
+  }
+
   /// Whether an answer was given since the last call.
   bool TakeNews();
 

@@ -75,12 +75,36 @@ void WaitForWallClock(const v1::Config& config, const StopSignalWatcher& signals
   }
 }
 
+/// When a status is to be published in the middle of a step that takes long.
+class StatusInStep {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  explicit StatusInStep(double period_s)
+      : period_(
+            std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(period_s))) {}
+
+  bool IsDue(Time now) {
+    if (now < due_) return false;
+    due_ = now + period_;
+    return true;
+  }
+  /// Between steps the daemon publishes it.
+  void StepIsOver(Time now) { due_ = now + period_; }
+
+ private:
+  const Time::duration period_;
+  Time due_ = std::chrono::steady_clock::now() + period_;
+};
+
 int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   SystemClock clock([&bus] { bus.Wake(); });
   RecordingWriter* const recorder = parts.recorder;
   const bool has_journal_later = parts.open_journal != nullptr;
   BuildOptions build = BuildOptionsOf(config);
   build.cache = std::move(parts.trees);
+  ServiceNotifier service_manager;
+  StatusInStep status(config.status_period_s());
   Daemon daemon(
       config, bus, clock,
       {.recorder = recorder,
@@ -89,10 +113,14 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
        .open_journal = std::move(parts.open_journal),
        .quarantine = parts.quarantine,
        .state_failure = parts.state_failure,
-       .claim = parts.claim});
+       .claim = parts.claim,
+       .progress = [&] {
+         const auto now = std::chrono::steady_clock::now();
+         service_manager.Alive(now);
+         return status.IsDue(now);
+       }});
   const StopSignalWatcher signals([&daemon] { daemon.Stop(); }, kStepPatience,
                                   [recorder] { EndInTheStep(recorder); });
-  ServiceNotifier service_manager;
   spdlog::info("collisiond {}, instance {:016x}, claims world \"{}\" on domain {}", kVersion,
                parts.claim.instance, config.world(), config.domain());
   if (parts.journal == nullptr && !has_journal_later)
@@ -106,7 +134,9 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
       service_manager.Ready();
       ready = true;
     }
-    service_manager.Alive(std::chrono::steady_clock::now());
+    const auto now = std::chrono::steady_clock::now();
+    service_manager.Alive(now);
+    status.StepIsOver(now);
   }
   service_manager.Stopping();
   LogFingerprint(daemon.event_log());

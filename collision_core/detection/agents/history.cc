@@ -66,6 +66,11 @@ std::size_t History::InForce(Instant t) const {
   return k == 0 ? samples_.size() : k - 1;
 }
 
+std::size_t History::CountAfter(Instant t) const {
+  const std::size_t in_force = InForce(t);
+  return in_force == samples_.size() ? samples_.size() : samples_.size() - 1 - in_force;
+}
+
 double History::LastInterval() const {
   if (samples_.size() < 2) return 0;
   return numeric::SecondsBetween(samples_[samples_.size() - 2].bound.state.stamp,

@@ -55,6 +55,9 @@ class History {
   }
   Sample& newest() { return const_cast<Sample&>(std::as_const(*this).newest()); }
 
+  /// How many states are newer than `t`.
+  std::size_t CountAfter(Instant t) const;
+
   /// The seconds between the newest two samples; 0 if there is only one.
   double LastInterval() const;
 

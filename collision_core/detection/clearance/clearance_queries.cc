@@ -62,6 +62,7 @@ void ClearanceQueries::Query(AgentIndex agent, Renewals renewals) {
   } else {
     QueryAll(agent, renewals);
   }
+  context_.clock.MadeProgress();
 }
 
 // Whether the key of the comparable partners lies beyond everything that this step must know.

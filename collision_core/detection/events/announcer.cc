@@ -123,6 +123,12 @@ PairInterest Announcer::Report(const PairName& pair, const PairOutlook& outlook,
   return PairInterest::kNear;
 }
 
+void Announcer::Announce(const PairName& pair, Instant free_until, bool began_before,
+                         PublishedEvent* published) {
+  CORE_CHECK(!published->announced, "a pair is announced once", pair.slot.value());
+  Open({pair, nullptr, *published}, {free_until, began_before});
+}
+
 void Announcer::Close(const PairName& pair, const ContactEpisode* open, Departure departure,
                       PublishedEvent* published) {
   const Subject subject{pair, nullptr, *published};

@@ -75,6 +75,11 @@ class Announcer {
   PairInterest Report(const PairName& pair, const PairOutlook& outlook, Finality finality,
                       ProximitySource* proximity, PublishedEvent* published);
 
+  /// The pair may meet soon, and nothing more is known of it yet. Requires that it is not
+  /// announced.
+  void Announce(const PairName& pair, Instant free_until, bool began_before,
+                PublishedEvent* published);
+
   /// The pair is no longer watched: gives its event a final status. A confirmed event ends; a
   /// possible one is undecided if an episode is open (`open`; null: free), else withdrawn.
   void Close(const PairName& pair, const ContactEpisode* open, Departure departure,

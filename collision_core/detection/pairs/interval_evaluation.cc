@@ -60,7 +60,8 @@ bool EvaluateOne(const History& history_a, const History& history_b, Instant to,
   const narrow_phase::BodySegment a = history_a.Over(from, to), b = history_b.Over(from, to);
   const double duration = numeric::SecondsBetween(from, to).upper;
   const bool balls = a.is_ball() && b.is_ball();
-  work->Spend(1);
+  const bool bounded = work->when_exhausted() == WhenExhausted::kLeaveUndecided;
+  work->Spend(bounded && !balls ? kSegmentUnits : 1);
   if (balls) {
     if (const auto contact = QuickBallContact(a.ball, b.ball, duration)) {
       tracker->Apply(*contact, to, {}, {});
@@ -98,12 +99,24 @@ bool EvaluateOne(const History& history_a, const History& history_b, Instant to,
   return false;
 }
 
+// The budget is used up: neither freedom nor contact is known from here to `until`.
+void LeaveUndecided(Instant until, ContactTracker* tracker) {
+  const double duration = numeric::SecondsBetween(tracker->at(), until).upper;
+  NearestInstant none;
+  none.exhausted = true;
+  tracker->Apply({.free_until = 0, .free_from = duration}, until, none, {});
+}
+
 }  // namespace
 
 SegmentCount EvaluateSegments(const History& a, const History& b, Instant until, WorkBudget* work,
                               ContactTracker* tracker) {
   SegmentCount count;
   while (tracker->at() < until) {
+    if (work->exhausted() && work->when_exhausted() == WhenExhausted::kLeaveUndecided) {
+      LeaveUndecided(until, tracker);
+      break;
+    }
     const Instant from = tracker->at();
     const Instant to = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
     count.quick += EvaluateOne(a, b, to, work, tracker);

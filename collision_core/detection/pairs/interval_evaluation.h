@@ -16,7 +16,8 @@ struct SegmentCount {
 /// Evaluates everything from tracker->at() to `until`, segment by segment between the cuts of the
 /// two histories, with all bounds that hold there. Shapes are evaluated as closely as the work
 /// allows; balls cost one unit a segment. Where a shape is awaited, its ball excludes a contact but
-/// confirms none.
+/// confirms none. What is left when the work is exhausted becomes undecided at once, or gets one
+/// query a segment (WhenExhausted).
 SegmentCount EvaluateSegments(const History& a, const History& b, Instant until, WorkBudget* work,
                               ContactTracker* tracker);
 

@@ -24,6 +24,13 @@ constexpr std::uint64_t kClaimAll = 4;
 // beside what the evaluation took.
 constexpr std::uint64_t kProximityShare = 8;
 
+// What a turn costs of a step's work, in units. Two shapes get as much as their last evaluation
+// took, within these bounds: enough to tell something, and so little that a step has several turns.
+// Two balls cost this much for each state that is new to them.
+constexpr std::uint64_t kShapesTurnMin = 1000;
+constexpr std::uint64_t kTurnsPerStep = 16;
+constexpr std::uint64_t kBallsTurn = 20;
+
 // A contact that cannot end is evaluated again after at most this share of announce_within, each
 // pair after another part of the share's second half.
 constexpr double kRestShare = 0.125;
@@ -58,6 +65,7 @@ TrackedPairs::TrackedPairs(const DetectorOptions& options, const DetectorContext
       table_(options.pairs_max, options.pairs_per_agent_max),
       evaluator_(context),
       budget_(options.work_units_per_evaluation, options.work_units_per_step),
+      owners_(options.temporal_resolution),
       announcer_(options, context.counters) {}
 
 void TrackedPairs::ForgetAgent(AgentIndex agent) {
@@ -73,13 +81,17 @@ bool TrackedPairs::Track(AgentIndex a, AgentIndex b, Instant free_until, Past pa
                                     .higher = higher,
                                     .tracker = ContactTracker(free_until, past),
                                     .clear_until = free_until});
+  owners_.AddPair(slot, OwnerOf(agents[lower].id), OwnerOf(agents[higher].id));
   MarkChanged(slot);
   SetDue(slot);
   return true;
 }
 
 void TrackedPairs::RetractFree(AgentIndex agent, Instant from) {
-  for (const PairSlot slot : table_.Of(agent)) table_[slot].tracker.RetractFree(from, Past::kKnown);
+  for (const PairSlot slot : table_.Of(agent)) {
+    table_[slot].tracker.RetractFree(from, Past::kKnown);
+    retracted_.push_back({slot, from});
+  }
 }
 
 // What lies between the last honest state and the breach is unknown.
@@ -88,34 +100,120 @@ void TrackedPairs::MarkBroken(AgentIndex agent, Instant last_honest) {
   for (const PairSlot slot : table_.Of(agent)) table_[slot].published.broken = true;
 }
 
+void TrackedPairs::StartStep() {
+  announcer_.Start(context_.clock.now);
+  last_units_.clear();
+}
+
 void TrackedPairs::EvaluateDuePairs() {
-  std::vector<PairSlot> slots;
+  QueueDuePairs();
+  const bool limited = budget_.is_limited();
+  const auto cost = [&](PairSlot slot) { return limited ? TurnCostOf(slot) : 0; };
+  const std::vector<PairTurn> turns =
+      owners_.Take(limited ? budget_.per_step() : 0, cost, context_.clock.now);
+  const std::vector<PairSlot> unannounced = RetractPostponed();
+  if (limited) {
+    std::vector<PairClaim> claims;
+    for (const PairTurn& turn : turns) claims.push_back({ClaimOf(turn), turn.payer});
+    budget_.Start(claims);
+  }
+  // Pairs by slot, which is the order of events.
+  auto postponed = unannounced.begin();
+  for (const PairTurn& turn : turns) {
+    for (; postponed != unannounced.end() && *postponed < turn.slot; ++postponed) {
+      Announce(*postponed);
+    }
+    const std::uint64_t before = context_.counters->work_units;
+    Evaluate(turn.slot, limited ? budget_.Allowed() : options_.work_units_per_evaluation,
+             Finality::kOngoing);
+    const std::uint64_t units = context_.counters->work_units - before;
+    if (limited) budget_.Spent(units);
+    owners_.RecordEvaluation(turn, units);
+    context_.clock.MadeProgress();
+  }
+  for (; postponed != unannounced.end(); ++postponed) Announce(*postponed);
+}
+
+// All pairs of changed agents, and those that are due.
+void TrackedPairs::QueueDuePairs() {
+  queued_.clear();
   for (const AgentIndex agent : context_.agents.changed()) {
     if (!context_.agents.Contains(agent)) continue;
-    const std::vector<PairSlot>& pairs = table_.Of(agent);
-    slots.insert(slots.end(), pairs.begin(), pairs.end());
+    for (const PairSlot slot : table_.Of(agent)) {
+      if (owners_.Wait(slot)) queued_.push_back(slot);
+    }
   }
   while (!due_.empty() && due_.top_key() <= context_.clock.now) {
-    slots.push_back(due_.top());
-    due_.Remove(slots.back());
-  }
-  std::sort(slots.begin(), slots.end());
-  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
-  if (budget_.is_limited()) return EvaluateShared(slots);
-  for (const PairSlot slot : slots) {
-    Evaluate(slot, options_.work_units_per_evaluation, Finality::kOngoing);
+    const PairSlot slot = due_.top();
+    due_.Set(slot, Instant::Never());
+    owners_.Wait(slot);
+    queued_.push_back(slot);
   }
 }
 
-void TrackedPairs::EvaluateShared(const std::vector<PairSlot>& slots) {
-  std::vector<WorkClaim> claims;
-  for (const PairSlot slot : slots) claims.push_back(ClaimOf(slot));
-  budget_.Start(claims);
-  for (const PairSlot slot : slots) {
-    const std::uint64_t before = context_.counters->work_units;
-    Evaluate(slot, budget_.Allowed(), Finality::kOngoing);
-    budget_.Spent(context_.counters->work_units - before);
+// What was certified of the pairs that wait for a later step still holds, unless an agent was
+// renewed. Returns those that must be announced meanwhile, by slot.
+std::vector<PairSlot> TrackedPairs::RetractPostponed() {
+  for (const auto& [slot, from] : retracted_) {
+    if (!owners_.IsWaiting(slot)) continue;
+    table_[slot].clear_until = std::min(table_[slot].clear_until, from);
+    MarkChanged(slot);
+    queued_.push_back(slot);
   }
+  retracted_.clear();
+  std::vector<PairSlot> unannounced;
+  for (const PairSlot slot : queued_) {
+    if (!owners_.IsWaiting(slot) || table_[slot].published.announced) continue;
+    FindFirstClearance(slot);
+    const Instant announce =
+        numeric::AddRoundedUp(table_[slot].clear_until, -options_.announce_within);
+    due_.Set(slot, announce);
+    if (announce <= context_.clock.now) unannounced.push_back(slot);
+  }
+  std::sort(unannounced.begin(), unannounced.end());
+  unannounced.erase(std::unique(unannounced.begin(), unannounced.end()), unannounced.end());
+  return unannounced;
+}
+
+// Until the first evaluation the balls alone tell until when two agents are clear.
+void TrackedPairs::FindFirstClearance(PairSlot slot) {
+  PairRecord& pair = table_[slot];
+  const Instant newest =
+      std::max(context_.agents[pair.lower].stamp(), context_.agents[pair.higher].stamp());
+  if (pair.evaluated_step != 0 || pair.tracker.at() < newest) return;
+  const Instant from = std::min(context_.clock.now, pair.tracker.at());
+  pair.tracker.ExtendFree(queries_.EarliestOf(pair.lower, pair.higher, from));
+  pair.clear_until = pair.tracker.at();
+  MarkChanged(slot);
+}
+
+// A pair that waits may meet soon.
+void TrackedPairs::Announce(PairSlot slot) {
+  PairRecord& pair = table_[slot];
+  due_.Set(slot, Instant::Never());
+  announcer_.Announce(NameOf(slot), pair.clear_until, pair.tracker.began_before(), &pair.published);
+  MarkChanged(slot);
+}
+
+// What the pair is expected to spend if it is evaluated in this step.
+std::uint64_t TrackedPairs::TurnCostOf(PairSlot slot) const {
+  const PairRecord& pair = table_[slot];
+  const History &a = context_.agents[pair.lower].history, &b = context_.agents[pair.higher].history;
+  if (!HaveKnownShapes(a, b)) {
+    const Instant at = pair.tracker.at();
+    return kBallsTurn * (1 + a.CountAfter(at) + b.CountAfter(at));
+  }
+  const std::uint64_t most =
+      std::min(budget_.per_step() / kTurnsPerStep, options_.work_units_per_evaluation);
+  return std::max(kShapesTurnMin, pair.evaluated_step == 0 ? 0 : std::min(pair.spent, most));
+}
+
+// While no pair waits each claims no more than it is expected to spend, so that all that is left is
+// there for those that need more, and a budget that is not used up limits none.
+WorkClaim TrackedPairs::ClaimOf(const PairTurn& turn) const {
+  WorkClaim claim = ClaimOf(turn.slot);
+  if (owners_.waiting() == 0) claim.wanted = std::min(claim.wanted, turn.cost);
+  return claim;
 }
 
 WorkClaim TrackedPairs::ClaimOf(PairSlot slot) const {
@@ -137,7 +235,8 @@ void TrackedPairs::Evaluate(PairSlot slot, std::uint64_t allowed, Finality final
   const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];
   if (!queries_.MayMeet(pair.lower, pair.higher)) return Drop(slot, Departure::kUnwatched);
   // One budget for all horizons, what is settled first.
-  WorkBudget work(allowed);
+  const bool held = allowed < ClaimOf(slot).wanted;
+  WorkBudget work(allowed, held ? WhenExhausted::kLeaveUndecided : WhenExhausted::kQueryOnce);
   const ContactTracker preview = evaluator_.Evaluate({a, b, pair}, finality, &work);
   pair.published.work += work.spent();
   pair.spent = work.exhausted() ? kAllWanted : work.spent();
@@ -214,9 +313,20 @@ bool TrackedPairs::Release(PairSlot slot) {
 void TrackedPairs::EvaluateLastTime(AgentIndex agent, Departure departure) {
   const std::vector<PairSlot> slots = table_.Of(agent);
   for (const PairSlot slot : slots) {
-    Evaluate(slot, options_.work_units_per_evaluation, Finality::kLast);
+    const OwnerId payer = owners_.PayerOf(slot);
+    const std::uint64_t before = context_.counters->work_units;
+    Evaluate(slot, AllowedAtLast(payer), Finality::kLast);
+    last_units_[payer] += context_.counters->work_units - before;
     if (table_.Contains(slot)) Drop(slot, departure);
+    context_.clock.MadeProgress();
   }
+}
+
+std::uint64_t TrackedPairs::AllowedAtLast(const OwnerId& payer) {
+  if (!budget_.is_limited()) return options_.work_units_per_evaluation;
+  const std::uint64_t spent = last_units_[payer];
+  const std::uint64_t left = budget_.per_step() - std::min(spent, budget_.per_step());
+  return std::min(options_.work_units_per_evaluation, left);
 }
 
 // The two are no longer watched: closes their event and releases the slot.
@@ -230,6 +340,7 @@ void TrackedPairs::Drop(PairSlot slot, Departure departure) {
 void TrackedPairs::Remove(PairSlot slot) {
   MarkChanged(slot);
   due_.Remove(slot);
+  owners_.RemovePair(slot);
   table_.Remove(slot);
 }
 
@@ -254,6 +365,7 @@ void TrackedPairs::Validate() const {
   due_.Validate();
   changed_.Validate();
   announcer_.Validate();
+  owners_.Validate();
   CORE_CHECK(due_.size() == table_.size(), "each tracked pair is queued", due_.size(),
              table_.size());
   for (std::size_t agent = 0; agent < context_.agents.index_end(); ++agent) {

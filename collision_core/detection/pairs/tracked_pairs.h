@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "collision_core/detection/agents/detector_context.h"
 #include "collision_core/detection/agents/pair_queries.h"
 #include "collision_core/detection/events/announcer.h"
+#include "collision_core/detection/pairs/owner_queues.h"
 #include "collision_core/detection/pairs/pair_evaluator.h"
 #include "collision_core/detection/pairs/pair_table.h"
 #include "collision_core/detection/pairs/step_budget.h"
@@ -23,7 +25,13 @@ struct ReleasedPair {
 
 /// Tracks pairs, evaluates each when one of its agents has changed or when it is due, and reports
 /// the result to the announcer. Pairs are evaluated in the order of their slots, which is the order
-/// of events. A step costs O(pairs evaluated), plus a logarithm for each in the queue.
+/// of events. A step costs O(pairs evaluated), plus a logarithm for each in the queue, plus a look
+/// at each pair of a changed agent.
+///
+/// A step evaluates no more pairs than its budget pays for (OwnerQueues says which). The others
+/// wait: what was certified of them still holds, though newer states would tell more, and one that
+/// may meet soon is announced. An evaluation that gets less than it wants leaves the rest
+/// undecided.
 ///
 /// A pair is due at every step while contact is possible within Δt, while it is to be announced, in
 /// a contact that may end, and when an ended contact is settled. Beyond kPairsEvaluatedEachStep
@@ -55,10 +63,12 @@ class TrackedPairs {
   void MarkBroken(AgentIndex agent, Instant last_honest);
 
   /// Starts a step's events, before anything else of that step.
-  void StartStep() { announcer_.Start(context_.clock.now); }
-  /// Evaluates the pairs of all agents that have changed, and those that are due.
+  void StartStep();
+  /// Evaluates the pairs of all agents that have changed, and those that are due, within the step's
+  /// budget.
   void EvaluateDuePairs();
-  /// The agent leaves or expires: evaluates its pairs a last time and tracks them no longer.
+  /// The agent leaves or expires: evaluates its pairs a last time and tracks them no longer. Each
+  /// owner may spend one step's budget on that; the pairs beyond it end undecided.
   void EvaluateLastTime(AgentIndex agent, Departure departure);
 
   /// Pairs released since the last call, in the order of their release. The caller lowers the keys
@@ -72,13 +82,28 @@ class TrackedPairs {
 
   const std::vector<CollisionEvent>& events() const { return announcer_.events(); }
   std::size_t queued() const { return due_.size(); }
+  /// Pairs that wait for a later step, since the work of this one was used up.
+  std::size_t waiting() const { return owners_.waiting(); }
+  std::vector<OwnerWork> owner_work() const { return owners_.work(); }
 
   /// Walks the table and the queue, and compares them.
   void Validate() const;
 
  private:
-  void EvaluateShared(const std::vector<PairSlot>& slots);
+  /// The freedom of a pair was taken back from an instant on.
+  struct Retraction {
+    PairSlot slot;
+    Instant from;
+  };
+
+  void QueueDuePairs();
+  std::vector<PairSlot> RetractPostponed();
+  void FindFirstClearance(PairSlot slot);
+  void Announce(PairSlot slot);
+  std::uint64_t TurnCostOf(PairSlot slot) const;
+  WorkClaim ClaimOf(const PairTurn& turn) const;
   WorkClaim ClaimOf(PairSlot slot) const;
+  std::uint64_t AllowedAtLast(const OwnerId& payer);
   void Evaluate(PairSlot slot, std::uint64_t allowed, Finality finality);
   PairInterest Report(PairSlot slot, const ContactTracker& preview, std::uint64_t allowed,
                       Finality finality);
@@ -96,6 +121,10 @@ class TrackedPairs {
   PairTable table_;
   PairEvaluator evaluator_;
   StepBudget budget_;
+  OwnerQueues owners_;
+  std::map<OwnerId, std::uint64_t> last_units_;  // of last evaluations in this step
+  std::vector<Retraction> retracted_;            // since the last step
+  std::vector<PairSlot> queued_;                 // that began to wait or became due in this step
   Announcer announcer_;
   EventQueue<PairSlot> due_;  // by the time from which a pair is evaluated at every step
   std::vector<ReleasedPair> released_;

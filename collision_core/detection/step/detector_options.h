@@ -24,9 +24,10 @@ struct DetectorOptions {
   /// Work units that the narrow phase may spend on a pair of shapes in one evaluation
   /// (base/work_budget.h); beyond, brackets stay wider and are marked as limited by the budget.
   std::uint64_t work_units_per_evaluation = 40000;
-  /// Likewise in one step on all pairs of shapes, shared out among those that are evaluated
-  /// (pairs/work_shares.h). Units that one pair leaves go to the next. The last evaluation of a
-  /// pair of which an agent leaves or expires does not count. 0: no limit but each evaluation's.
+  /// Likewise in one step, and in each temporal_resolution of `now`, on all pairs: shared out first
+  /// among owners, then among their pairs (pairs/owner_queues.h, pairs/step_budget.h). Pairs beyond
+  /// it wait for a later step. The last evaluations of pairs of which an agent leaves or expires
+  /// may spend as much again for each owner. 0: no limit but each evaluation's.
   std::uint64_t work_units_per_step = 0;
   /// How candidate pairs are found; changes the cost, never an answer.
   broad_phase::BroadPhaseMethod broad_phase = broad_phase::BroadPhaseMethod::kAuto;

@@ -36,6 +36,9 @@ void LatencyPart(const ServiceSettings& settings, ServiceReport* report);
 /// at rest and in a jittered one.
 void AtRestPart(const ServiceSettings& settings, ServiceReport* report);
 
+/// Update to event beside a simulator whose many meshes overlap, and without it.
+void CrowdPart(const ServiceSettings& settings, ServiceReport* report);
+
 /// How many states a simulator sends on demand, of those that a stream would send.
 void MessagesPart(const ServiceSettings& settings, ServiceReport* report);
 

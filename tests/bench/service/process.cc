@@ -16,6 +16,7 @@
 #include "server/bus/system_clock.h"
 #include "server/config/config.h"
 #include "server/service/daemon.h"
+#include "tests/bench/service/crowd.h"
 
 namespace collision::bench {
 namespace {
@@ -104,7 +105,9 @@ std::int64_t WallNs() {
 int Serve(const std::string& contestant, const std::string& world, std::uint32_t domain) {
   spdlog::set_level(spdlog::level::off);
   try {
-    contestant == "ours" ? ServeOurs(world, domain) : ServeAtOnce(world, domain);
+    if (contestant == "ours") ServeOurs(world, domain);
+    if (contestant == "network") ServeAtOnce(world, domain);
+    if (contestant == kCrowd) FlyCrowd(world, domain);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench: %s: %s\n", contestant.c_str(), error.what());
     return 69;

@@ -11,7 +11,7 @@ namespace {
 TEST(StepBudgetShares, WhatOnePairLeavesGoesToTheNext) {
   StepBudget budget(100, 90);
   ASSERT_TRUE(budget.is_limited());
-  budget.Start({{.wanted = 45}, {.wanted = 0}, {.wanted = 45}});
+  budget.Start({{{.wanted = 45}}, {{.wanted = 0}}, {{.wanted = 45}}});
   EXPECT_EQ(budget.Allowed(), 45u);
   budget.Spent(5);
   EXPECT_EQ(budget.Allowed(), 100u) << "it claims nothing: two balls";
@@ -23,8 +23,40 @@ TEST(StepBudgetShares, WhatOnePairLeavesGoesToTheNext) {
 
 TEST(StepBudgetShares, NoPairMaySpendMoreThanOneEvaluation) {
   StepBudget budget(30, 1000);
-  budget.Start({{.wanted = 500}, {.wanted = 10}});
+  budget.Start({{{.wanted = 500}}, {{.wanted = 10}}});
   EXPECT_EQ(budget.Allowed(), 30u);
+}
+
+// Three pairs of one owner and one of another, which all want everything.
+TEST(StepBudgetShares, OwnersShareFirstThenTheirPairs) {
+  StepBudget budget(1000, 120);
+  const OwnerId many{7, 1}, one{3, 1};
+  budget.Start({{{.wanted = 1000}, many},
+                {{.wanted = 1000}, one},
+                {{.wanted = 1000}, many},
+                {{.wanted = 1000}, many}});
+  for (const std::uint64_t share : {20u, 60u, 20u, 20u}) {
+    EXPECT_EQ(budget.Allowed(), share);
+    budget.Spent(share);
+  }
+}
+
+TEST(StepBudgetShares, WhatOneOwnerDoesNotClaimGoesToTheOther) {
+  StepBudget budget(1000, 120);
+  const OwnerId many{7, 1}, one{3, 1};
+  budget.Start({{{.wanted = 1000}, many}, {{.wanted = 1000}, many}, {{.wanted = 10}, one}});
+  for (const std::uint64_t share : {55u, 55u, 10u}) {
+    EXPECT_EQ(budget.Allowed(), share);
+    budget.Spent(share);
+  }
+}
+
+TEST(StepBudgetShares, WhatNobodyClaimsIsThereForWhoeverNeedsMore) {
+  StepBudget budget(1000, 120);
+  budget.Start({{{.wanted = 10}}, {{.wanted = 20}}});
+  EXPECT_EQ(budget.Allowed(), 100u);
+  budget.Spent(80);
+  EXPECT_EQ(budget.Allowed(), 40u) << "what it claimed is kept for it";
 }
 
 TEST(StepBudgetShares, AnUnlimitedBudgetIsNotShared) {

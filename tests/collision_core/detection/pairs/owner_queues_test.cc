@@ -1,0 +1,122 @@
+// Goal:   owners take turns by the work that they have had, their pairs in the order in which they
+//         began to wait; no pair starves, and what one owner does not want is there for the others.
+// Method: queues filled by hand, with costs that make each turn known.
+#include "collision_core/detection/pairs/owner_queues.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/collision_core/detection/line.h"
+
+namespace collision::detection {
+namespace {
+
+constexpr OwnerId kMany{7, 1}, kOne{3, 1};
+constexpr double kStep = 0.125;  // and Δt [s]
+
+class OwnerQueuesTest : public testing::Test {
+ protected:
+  void Add(std::uint32_t slot, const OwnerId& a, const OwnerId& b) {
+    queues_.AddPair(PairSlot(slot), a, b);
+    queues_.Wait(PairSlot(slot));
+  }
+
+  /// The slots whose turn it is, `steps` Δt after the last.
+  std::vector<std::uint32_t> Take(std::uint64_t units, double steps = 1) {
+    now_ += steps * kStep;
+    std::vector<std::uint32_t> slots;
+    for (const PairTurn& turn : queues_.Take(
+             units, [](PairSlot) { return std::uint64_t{10}; }, At(now_))) {
+      slots.push_back(turn.slot.value());
+      queues_.RecordEvaluation(turn, 10);
+    }
+    queues_.Validate();
+    return slots;
+  }
+
+  OwnerWork WorkOf(const OwnerId& owner) const {
+    for (const OwnerWork& work : queues_.work()) {
+      if (work.owner == owner) return work;
+    }
+    return {};
+  }
+
+  OwnerQueues queues_{kStep};
+  double now_ = 0;
+};
+
+using Slots = std::vector<std::uint32_t>;
+
+TEST_F(OwnerQueuesTest, OwnersTakeTurnsWhateverTheirPairs) {
+  for (std::uint32_t slot = 0; slot < 8; ++slot) Add(slot, kMany, kMany);
+  for (std::uint32_t slot = 8; slot < 10; ++slot) Add(slot, kOne, kOne);
+  EXPECT_EQ(Take(40), (Slots{0, 1, 8, 9}));
+  EXPECT_EQ(Take(40), (Slots{2, 3, 4, 5})) << "the share of the other is free";
+  EXPECT_EQ(queues_.waiting(), 2u);
+}
+
+TEST_F(OwnerQueuesTest, NoPairComesAgainBeforeAllThatWaited) {
+  constexpr std::uint32_t kPairs = 5;
+  constexpr int kSteps = 30;
+  std::map<std::uint32_t, int> since, turns;  // the step in which each began to wait
+  for (std::uint32_t slot = 0; slot < kPairs; ++slot) Add(slot, kMany, kMany), since[slot] = 0;
+  for (int step = 1; step <= kSteps; ++step) {
+    const Slots taken = Take(20);
+    ASSERT_EQ(taken.size(), 2u) << step;
+    int latest = 0;
+    for (const std::uint32_t slot : taken) {
+      latest = std::max(latest, since[slot]);
+      EXPECT_LE(step - since[slot], 3) << "two of five each step: pair " << slot;
+      ++turns[slot];
+      since[slot] = step;
+      queues_.Wait(PairSlot(slot));
+    }
+    for (const auto& [slot, at] : since) EXPECT_GE(at, latest) << step << ": pair " << slot;
+  }
+  // Within a step pairs begin to wait in the order of their slots.
+  for (std::uint32_t slot = 0; slot < kPairs; ++slot) {
+    EXPECT_GE(turns[slot], kSteps / 3) << slot;
+  }
+}
+
+TEST_F(OwnerQueuesTest, TheOwnerWithMorePairsPaysForThoseOfBoth) {
+  Add(0, kMany, kMany);
+  Add(1, kOne, kMany);
+  EXPECT_EQ(queues_.PayerOf(PairSlot(1u)), kMany);
+  queues_.RemovePair(PairSlot(0u));
+  EXPECT_EQ(queues_.PayerOf(PairSlot(1u)), kOne) << "of equal ones the lower id";
+  EXPECT_EQ(queues_.waiting(), 1u) << "the pair waits where it was";
+}
+
+TEST_F(OwnerQueuesTest, StepsThatFollowFastGiveNoMoreThanTheShare) {
+  for (std::uint32_t slot = 0; slot < 64; ++slot) Add(slot, kMany, kMany);
+  std::size_t taken = 0;
+  for (int step = 0; step < 64; ++step) taken += Take(40, 1.0 / 16).size();
+  EXPECT_GE(taken, 4u * 4) << "four Δt";
+  EXPECT_LE(taken, 4u * (4 + 1) + 1) << "and the credit at first";
+  Add(100, kOne, kOne);
+  const Slots next = Take(40, 0);
+  EXPECT_TRUE(std::find(next.begin(), next.end(), 100u) != next.end())
+      << "one that wants little has its turn at once";
+}
+
+TEST_F(OwnerQueuesTest, SaysSinceWhenAnOwnerIsHeldToItsShare) {
+  for (std::uint32_t slot = 0; slot < 4; ++slot) Add(slot, kMany, kMany);
+  Add(4, kOne, kOne);
+  Take(20);
+  EXPECT_EQ(WorkOf(kMany).held_since, At(kStep));
+  EXPECT_EQ(WorkOf(kMany).sharing, 2u);
+  EXPECT_EQ(WorkOf(kMany).waiting, 3u);
+  EXPECT_TRUE(WorkOf(kOne).held_since.is_never());
+  Take(20);
+  EXPECT_EQ(WorkOf(kMany).held_since, At(kStep));
+  Take(20);
+  EXPECT_TRUE(WorkOf(kMany).held_since.is_never());
+  EXPECT_EQ(WorkOf(kMany).wanted, 4u);
+  EXPECT_EQ(WorkOf(kMany).evaluated, 4u);
+  EXPECT_EQ(WorkOf(kMany).work_units, 40u);
+}
+
+}  // namespace
+}  // namespace collision::detection
