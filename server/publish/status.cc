@@ -192,6 +192,14 @@ void AddEvicted(const World& world, v1::ServiceStatus* status) {
 
 }  // namespace
 
+void AddText(const std::string& key, const std::string& text,
+             std::vector<v1::KeyValue>* extensions) {
+  if (text.empty()) return;
+  v1::KeyValue& extension = extensions->emplace_back();
+  extension.set_key(key);
+  extension.set_value(text.substr(0, wire::kExtensionValueMax));
+}
+
 v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   v1::ServiceStatus status;
   status.set_version(kVersion);

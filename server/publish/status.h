@@ -45,6 +45,10 @@ struct StatusSources {
   std::vector<v1::KeyValue> extensions = {};  ///< Further ones.
 };
 
+/// Adds an extension, unless its text is empty; what is too long is cut off.
+void AddText(const std::string& key, const std::string& text,
+             std::vector<v1::KeyValue>* extensions);
+
 /// Without service id and stamp. Texts are cut to the bounds of collision.idl.
 v1::ServiceStatus MakeStatus(const StatusSources& sources);
 

@@ -393,15 +393,9 @@ class Daemon::Implementation {
     silence_report_.AddExtensions(&extensions);
     operators_.AddExtensions(&extensions);
     shares_.AddExtensions(&extensions);
-    const auto add = [&extensions](const char* key, const std::string& what) {
-      if (what.empty()) return;
-      v1::KeyValue& failure = extensions.emplace_back();
-      failure.set_key(key);
-      failure.set_value(what.substr(0, wire::kExtensionValueMax));
-    };
-    add("state_failure", state_failure_);
-    add("recording_failure", recorder_.failure());
-    if (quarantine_ != nullptr) add("quarantine", quarantine_->Summary());
+    AddText("state_failure", state_failure_, &extensions);
+    AddText("recording_failure", recorder_.failure(), &extensions);
+    if (quarantine_ != nullptr) AddText("quarantine", quarantine_->Summary(), &extensions);
     return extensions;
   }
 

@@ -54,10 +54,11 @@ std::string Folder::Write(const std::string& name, const std::string& text) cons
   return Path(name);
 }
 
-TestWorld::TestWorld(int domain, const std::string& clock)
+TestWorld::TestWorld(int domain, const std::string& clock, const std::string& more)
     : domain_(std::to_string(domain)),
       name_("test-" + domain_ + "-" + std::to_string(getpid())),
-      clock_(clock) {
+      clock_(clock),
+      more_(more) {
   SetStateFolder(folder_.Path("state"));
   variables_ = {"CYCLONEDDS_URI=file://" + ConfigFile("cyclonedds-loopback.xml")};
 }
@@ -65,7 +66,7 @@ TestWorld::TestWorld(int domain, const std::string& clock)
 void TestWorld::SetStateFolder(const std::string& path) {
   config_file_ = folder_.Write("collisiond.textproto",
                                "world: \"" + name_ + "\"\ndomain: " + domain_ + "\nclock { " +
-                                   clock_ + " }\nstate_dir: \"" + path + "\"\n");
+                                   clock_ + " }\nstate_dir: \"" + path + "\"\n" + more_);
 }
 
 void TestWorld::MoveTo(const TwoHosts& hosts, int host) {

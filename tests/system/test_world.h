@@ -56,8 +56,9 @@ const std::vector<std::string> kHardlyMoves = {"--speed", "0.02"};
 class TestWorld {
  public:
   /// `domain` is the test's own, so that tests can run at once. `clock` is what stands in the field
-  /// clock {}. The service keeps its journal in the folder "state".
-  explicit TestWorld(int domain, const std::string& clock = "simulators_awaited: 2");
+  /// clock {}, `more` behind it. The service keeps its journal in the folder "state".
+  explicit TestWorld(int domain, const std::string& clock = "simulators_awaited: 2",
+                     const std::string& more = "");
 
   /// Another folder for the journal from here on; empty: none.
   void SetStateFolder(const std::string& path);
@@ -101,7 +102,7 @@ class TestWorld {
   Folder folder_;
   std::string domain_;
   std::string name_;
-  std::string clock_;
+  std::string clock_, more_;
   std::string config_file_;
   std::vector<std::string> variables_;
   const TwoHosts* hosts_ = nullptr;

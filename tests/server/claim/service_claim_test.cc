@@ -64,6 +64,79 @@ TEST(ServiceClaim, OfTwoThatStartTogetherTheLowerInstanceGoesOn) {
   EXPECT_EQ(high.phase(), ClaimPhase::kYielded);
 }
 
+ClaimOptions Standby(std::uint64_t instance) {
+  ClaimOptions options = Options(instance);
+  options.stands_by = true;
+  options.waking_ns = kSecond / 10;
+  return options;
+}
+
+HeardService Heard(std::uint64_t instance, OtherPhase phase, std::uint32_t term,
+                   std::uint64_t sequence) {
+  return {.instance = instance, .term = term, .phase = phase, .sequence = sequence};
+}
+
+/// Stands by for service 1, which serves in term 3.
+ServiceClaim StandingBy(std::uint64_t instance) {
+  ServiceClaim claim(Standby(instance));
+  claim.Update(0);
+  claim.Hear(Heard(1, OtherPhase::kServing, 3, 1), 1);
+  claim.Update(1);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kStandby);
+  return claim;
+}
+
+TEST(ServiceClaim, AStandbyTakesOverOnceTheServiceIsGone) {
+  ServiceClaim claim = StandingBy(5);
+  // However long no status of it comes: the network says when it is gone.
+  claim.Update(100 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kStandby);
+  EXPECT_TRUE(claim.works());
+  claim.HearEnd(1);
+  claim.Update(100 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
+  EXPECT_EQ(claim.term(), 4u);
+  EXPECT_TRUE(claim.IsContended(101 * kSecond));
+  EXPECT_FALSE(claim.IsContended(161 * kSecond));
+}
+
+TEST(ServiceClaim, OfTwoStandbysTheOneThatCameInTheLowerTermTakesOver) {
+  ServiceClaim junior = StandingBy(2), senior = StandingBy(9);
+  junior.Hear(Heard(9, OtherPhase::kStandby, 2, 1), 2);
+  senior.Hear(Heard(2, OtherPhase::kStandby, 4, 1), 2);
+  for (ServiceClaim* claim : {&junior, &senior}) {
+    claim->HearEnd(1);
+    claim->Update(3);
+  }
+  EXPECT_EQ(senior.phase(), ClaimPhase::kServing);
+  EXPECT_EQ(junior.phase(), ClaimPhase::kStandby);
+  // It does if the other one has not.
+  EXPECT_EQ(junior.NextDue(), 3 + 2 * kSecond);
+  junior.Update(3 + 2 * kSecond);
+  EXPECT_EQ(junior.phase(), ClaimPhase::kServing);
+}
+
+TEST(ServiceClaim, OneThatStoodStillListensFirstAndYieldsToOneSample) {
+  ServiceClaim claim = Serving(5);
+  claim.WakeUp(2 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing) << "without a standby nobody can have taken over";
+  ServiceClaim beside(Standby(5));
+  beside.Update(0);
+  beside.Update(kSecond);
+  beside.Hear(Heard(7, OtherPhase::kStandby, 1, 1), kSecond);
+  beside.WakeUp(5 * kSecond);
+  beside.Update(5 * kSecond);
+  EXPECT_EQ(beside.phase(), ClaimPhase::kWaking);
+  EXPECT_FALSE(beside.works());
+  ServiceClaim alone = beside;
+  alone.Update(5 * kSecond + kSecond / 10);
+  EXPECT_EQ(alone.phase(), ClaimPhase::kServing);
+  EXPECT_EQ(alone.term(), 1u) << "nobody has taken over, so its promises hold";
+  beside.Hear(Heard(7, OtherPhase::kServing, 2, 9), 5 * kSecond + 1);
+  beside.Update(5 * kSecond + 1);
+  EXPECT_EQ(beside.phase(), ClaimPhase::kStandby);
+}
+
 TEST(ServiceClaim, ItsOwnStatusIsNoOtherService) {
   ServiceClaim claim(Options(5));
   claim.Update(0);
