@@ -31,6 +31,7 @@ TEST(Calibrate, ABudgetBecomesWorkUnits) {
   config.set_time_budget_us(1e6);
   config.set_work_units_per_us(1e6);
   EXPECT_EQ(WorkUnitsPerEvaluation(config), 1'000'000'000'000u);
+  config.set_step_budget_us(0);
   EXPECT_EQ(WorkUnitsPerStep(config), 0u) << "no limit";
   config.set_step_budget_us(1e6);
   EXPECT_EQ(WorkUnitsPerStep(config), 1'000'000'000'000u);
