@@ -78,7 +78,9 @@ std::int64_t InheritedEvents::OffsetOf(const Event& event, const Heard& heard) {
   if (IsFinal(heard.status) && same < 0) return 0;
   const bool meet = event.begin.earliest.nanoseconds() <= heard.begin_latest_ns &&
                     heard.begin_earliest_ns <= event.begin.latest.nanoseconds();
-  if (same == 0 || meet || !IsFinal(heard.status)) return same;
+  if (same == 0 || meet) return same;
+  if (same < 0) return 0;
+  if (!IsFinal(heard.status)) return same;
   return event.begin.earliest.nanoseconds() > heard.begin_latest_ns ? same + 1 : same - 1;
 }
 

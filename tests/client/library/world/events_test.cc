@@ -108,15 +108,16 @@ v1::CollisionEvent OfService(std::uint64_t id, std::uint32_t term, v1::Collision
   return event;
 }
 
-// A restarted service counts from 1 again, in sequences and in revisions.
+// A restarted service counts from 1 again, in sequences and in revisions. What it tells once more
+// is not new.
 TEST_F(EventsTest, EventsOfARestartedServiceArrive) {
   Arrive(OwnEvent(1, 5, 100));
   Arrive(OfService(7, 2, OwnEvent(1, 1, 3)));
   Arrive(OfService(7, 2, OwnEvent(1, 2, 4)));
   world_.Poll();
   const std::vector<Event> events = world_.TakeEvents();
-  ASSERT_EQ(events.size(), 3u);
-  EXPECT_EQ(events[2].revision, 2u);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[1].revision, 2u);
 }
 
 // A standby that takes over publishes the complete current set: known events are not new.
