@@ -21,8 +21,8 @@ struct Golden {
   v1::Config::TreeBuilder builder;
   std::uint64_t hash;
 };
-constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0x72ccdb02fae5232c},
-                              {v1::Config::FITTED, 0x63734499a96a8372}};
+constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0x9cec7ca8e910784c},
+                              {v1::Config::FITTED, 0xa8c2acd7f0222fda}};
 
 constexpr std::int64_t kEnd = 8 * kSecond;
 

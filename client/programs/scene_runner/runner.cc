@@ -243,6 +243,7 @@ RunResult Runner::Judge(const Measured& measured) {
   for (std::string& failure : Failures()) violations.push_back(std::move(failure));
   const v1::RunReport report = MakeReport(options_.scene, evidence, violations, measured);
   std::printf("%s", SummaryTable(report, evidence).c_str());
+  std::fflush(stdout);
   if (!options_.json.empty()) {
     std::string json;
     google::protobuf::util::JsonPrintOptions json_options;
