@@ -13,34 +13,68 @@ detection::AgentId IdOf(const v1::AgentId& wire) {
           .generation = wire.generation()};
 }
 
-bool IsFinal(v1::EventStatus status) {
-  return status != v1::EVENT_POSSIBLE && status != v1::EVENT_CONFIRMED;
+/// Of a contact [ns].
+struct Times {
+  std::int64_t earliest, latest;  // of its begin
+  std::int64_t over;              // at the latest
+  bool began_before;
+};
+
+Times TimesOf(const detection::CollisionEvent& event) {
+  return {.earliest = event.begin.earliest.nanoseconds(),
+          .latest = event.begin.latest.nanoseconds(),
+          .over = event.end.latest.nanoseconds(),
+          .began_before = event.began_before};
 }
 
-v1::EventStatus StatusOf(const detection::CollisionEvent& event) {
-  return static_cast<v1::EventStatus>(event.status);
+Times TimesOf(const v1::CollisionEvent& event) {
+  return {.earliest = event.begin().earliest_ns(),
+          .latest = event.begin().latest_ns(),
+          .over = event.end().latest_ns(),
+          .began_before = event.began_before()};
 }
+
+/// `found` was in progress when its service began to know the pair, and may be `other`.
+bool IsFoundWithin(const Times& found, const Times& other) {
+  return found.began_before && other.earliest <= found.latest && found.earliest <= other.over;
+}
+
+/// Whether the two are one contact.
+bool Meet(const Times& a, const Times& b) {
+  return IsFoundWithin(a, b) || IsFoundWithin(b, a) ||
+         (a.earliest <= b.latest && b.earliest <= a.latest);
+}
+
+bool IsContact(const v1::CollisionEvent& event) { return event.contacts_sequence() > 0; }
 
 }  // namespace
 
 void InheritedEvents::Hear(const v1::CollisionEvent& event) {
   const Pair pair{IdOf(event.lower()), IdOf(event.higher())};
-  const Heard heard{.contact = event.contact(),
-                    .status = event.status(),
-                    .begin_earliest_ns = event.begin().earliest_ns(),
-                    .begin_latest_ns = event.begin().latest_ns(),
-                    .offset = {}};
-  Heard* known = Find(pair);
+  const Heard* known = Find(pair);
+  Heard heard = known != nullptr ? *known : Heard();
+  heard.ours = 0;
   // Contacts and forecasts come on two topics, in any order.
-  if (known != nullptr && (event.contact() < known->contact ||
-                           (event.contact() == known->contact && IsFinal(known->status)))) {
-    return;
+  if (event.contact() > heard.number || (event.contact() == heard.number && heard.is_open)) {
+    heard.number = event.contact();
+    heard.is_open = event.status() == v1::EVENT_POSSIBLE;
+  }
+  if (!IsContact(event)) {
+    const bool dismissed = event.status() == v1::EVENT_DISMISSED;
+    heard.free_until_ns = std::max(
+        {heard.free_until_ns, event.begin().earliest_ns(), dismissed ? event.now_ns() : 0});
+  }
+  const v1::CollisionEvent& before = heard.contact;
+  if (IsContact(event) && (event.contact() > before.contact() ||
+                           (event.contact() == before.contact() &&
+                            before.status() == v1::EVENT_CONFIRMED))) {
+    heard.contact = event;
   }
   if (pairs_.size() >= kPairsMax) {
     earlier_ = std::move(pairs_);
     pairs_.clear();
   }
-  pairs_[pair] = heard;
+  pairs_[pair] = std::move(heard);
   std::erase_if(untold_, [&](const Event& contact) {
     return Pair{contact.lower, contact.higher} == pair && IsTold(contact);
   });
@@ -62,8 +96,21 @@ std::vector<InheritedEvents::Event> InheritedEvents::TakeUntold() {
 std::uint32_t InheritedEvents::NumberOf(const Event& event) {
   Heard* heard = Find({event.lower, event.higher});
   if (heard == nullptr) return event.contact;
-  if (!heard->offset) heard->offset = OffsetOf(event, *heard);
-  return static_cast<std::uint32_t>(std::max<std::int64_t>(event.contact + *heard->offset, 1));
+  if (event.contact <= heard->ours) {
+    const std::uint32_t earlier = heard->ours - event.contact;
+    return std::max(heard->for_readers, earlier + 1) - earlier;
+  }
+  // Each that is new goes on with the open forecast, or comes after all that readers know.
+  const std::uint32_t next = heard->is_open ? heard->number : heard->number + 1;
+  if (heard->ours > 0) {
+    heard->for_readers = std::max(heard->for_readers + event.contact - heard->ours, next);
+  } else if (IsContact(heard->contact) && Meet(TimesOf(event), TimesOf(heard->contact))) {
+    heard->for_readers = heard->contact.contact();
+  } else {
+    heard->for_readers = std::max(event.contact, next);
+  }
+  heard->ours = event.contact;
+  return heard->for_readers;
 }
 
 InheritedEvents::Heard* InheritedEvents::Find(const Pair& pair) {
@@ -72,25 +119,20 @@ InheritedEvents::Heard* InheritedEvents::Find(const Pair& pair) {
   return found != earlier_.end() ? &found->second : nullptr;
 }
 
-std::int64_t InheritedEvents::OffsetOf(const Event& event, const Heard& heard) {
-  const std::int64_t same = std::int64_t{heard.contact} - event.contact;
-  // What was over before counts no more: our number is one that readers do not know.
-  if (IsFinal(heard.status) && same < 0) return 0;
-  const bool meet = event.begin.earliest.nanoseconds() <= heard.begin_latest_ns &&
-                    heard.begin_earliest_ns <= event.begin.latest.nanoseconds();
-  if (same == 0 || meet) return same;
-  if (same < 0) return 0;
-  if (!IsFinal(heard.status)) return same;
-  return event.begin.earliest.nanoseconds() > heard.begin_latest_ns ? same + 1 : same - 1;
-}
-
-/// Whether readers know as much of it, or of a later contact of its pair.
+/// Whether readers know as much of it, or a later contact of its pair.
 bool InheritedEvents::IsTold(const Event& contact) {
   const Heard* heard = Find({contact.lower, contact.higher});
   if (heard == nullptr) return false;
-  const std::int64_t number = contact.contact + OffsetOf(contact, *heard);
-  if (number != heard->contact) return number < heard->contact;
-  return IsFinal(heard->status) || heard->status == StatusOf(contact);
+  // The other service knew more states, and has found that there was no contact.
+  if (contact.status == detection::EventStatus::kUndecided &&
+      contact.end.latest.nanoseconds() <= heard->free_until_ns) {
+    return true;
+  }
+  if (!IsContact(heard->contact)) return false;
+  const Times ours = TimesOf(contact), theirs = TimesOf(heard->contact);
+  if (!Meet(ours, theirs)) return ours.earliest < theirs.earliest;
+  return heard->contact.status() != v1::EVENT_CONFIRMED ||
+         contact.status == detection::EventStatus::kConfirmed;
 }
 
 }  // namespace collision::server

@@ -17,9 +17,10 @@ namespace collision::server {
 /// that after a take-over none is lost and none is told as another one.
 ///
 /// Both services see the same inputs and find the same contacts, but may hear of them in other
-/// steps, or one of them joined later: then it has counted fewer contacts of a pair. An event of
-/// one is that of the other if they have one number, if that of the other is open, or if their
-/// begin brackets meet; the standby goes on with the numbers that readers know.
+/// steps, and one that joined late has counted other contacts of a pair. So contacts are compared
+/// by their times: those of one pair have freedom between them, in which brackets never meet. One
+/// that began before a service knew its pair is the one that was in progress then. The standby goes
+/// on with the numbers that readers know.
 ///
 /// Depends on nothing but the calls. O(log pairs) for each event; at most 2 kPairsMax pairs and
 /// kUntoldMax contacts. One thread.
@@ -48,16 +49,18 @@ class InheritedEvents {
   using Event = detection::CollisionEvent;
   using Pair = std::pair<detection::AgentId, detection::AgentId>;
 
-  /// The newest that was heard of a pair.
+  /// What was heard of a pair.
   struct Heard {
-    std::uint32_t contact = 0;
-    v1::EventStatus status{};
-    std::int64_t begin_earliest_ns = 0, begin_latest_ns = 0;
-    std::optional<std::int64_t> offset;  ///< Readers' numbers less ours, once one was used.
+    std::uint32_t number = 0;  ///< The highest, of a contact or a forecast.
+    bool is_open = false;      ///< That is a forecast without an outcome.
+    /// No contact before this that readers have not been told of.
+    std::int64_t free_until_ns = Instant::Always().nanoseconds();
+    v1::CollisionEvent contact;     ///< The last one; empty: none.
+    std::uint32_t ours = 0;         ///< After a take-over: of our number,
+    std::uint32_t for_readers = 0;  ///< and this is theirs.
   };
 
   Heard* Find(const Pair& pair);
-  static std::int64_t OffsetOf(const Event& event, const Heard& heard);
   bool IsTold(const Event& contact);
 
   std::map<Pair, Heard> pairs_, earlier_;  ///< When the first is full it takes the other's place.

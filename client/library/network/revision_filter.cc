@@ -13,42 +13,56 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
     return false;
   const Pair pair{Id(event.lower()), Id(event.higher())};
   Known* known = Find(pair);
+  const Revision revision{event.contact(), event.revision(), event.status(),
+                          event.begin().earliest_ns(), event.begin().latest_ns()};
   if (known != nullptr && IsOutdated(event, *known)) {
     // A contact is history: it counts, however late it comes.
-    return is_contact && known->service == event.stamp().service_id();
+    if (is_contact && event.contact() >= known->last_contact.contact) {
+      known->last_contact = revision;
+    }
+    return is_contact;
   }
   const bool repeated = known != nullptr && IsRepeated(event, *known);
-  if (repeated && is_contact) ++contacts_repeated_;
-  // What is over stays over.
-  if (repeated && event.status() != known->status) return false;
+  if (repeated && is_contact) {
+    ++contacts_repeated_;
+    // What is over stays over, and what came after it stays the newest.
+    if (event.status() != known->last_contact.status || event.contact() < known->newest.contact) {
+      return false;
+    }
+  }
+  Known next = known != nullptr ? *known : Known();
+  next.service = event.stamp().service_id();
+  next.newest = revision;
+  if (is_contact) next.last_contact = revision;
   if (known_.size() >= kPairsMax) {
     earlier_ = std::move(known_);
     known_.clear();
   }
-  known_[pair] = {
-      event.stamp().service_id(),  event.contact(),          event.revision(), event.status(),
-      event.begin().earliest_ns(), event.begin().latest_ns()};
+  known_[pair] = next;
   return !repeated;
 }
 
 bool RevisionFilter::IsRepeated(const v1::CollisionEvent& event, const Known& known) {
   if (known.service == event.stamp().service_id()) return false;
-  const bool same = event.contact() == known.contact;
   if (IsForecast(event.status())) {
-    return same && event.status() == known.status &&
-           event.begin().earliest_ns() >= known.begin_earliest_ns;
+    return event.contact() == known.newest.contact && event.status() == known.newest.status &&
+           event.begin().earliest_ns() >= known.newest.begin_earliest_ns;
   }
+  const Revision& last = known.last_contact;
+  if (last.contact == 0) return false;
   // Of an earlier contact of the pair readers of this one have been told.
-  if (!IsForecast(known.status) && event.begin().latest_ns() < known.begin_earliest_ns) return true;
-  const bool meets = event.begin().earliest_ns() <= known.begin_latest_ns &&
-                     known.begin_earliest_ns <= event.begin().latest_ns();
-  const bool is_over = known.status == v1::EVENT_ENDED || known.status == v1::EVENT_UNDECIDED;
-  return same && meets && (event.status() == known.status || (is_over && !event.began_before()));
+  if (event.begin().latest_ns() < last.begin_earliest_ns) return true;
+  const bool same = event.contact() == last.contact &&
+                    event.begin().earliest_ns() <= last.begin_latest_ns &&
+                    last.begin_earliest_ns <= event.begin().latest_ns();
+  const bool is_over = last.status == v1::EVENT_ENDED || last.status == v1::EVENT_UNDECIDED;
+  return same && (event.status() == last.status || (is_over && !event.began_before()));
 }
 
 bool RevisionFilter::IsOutdated(const v1::CollisionEvent& event, const Known& known) {
   if (known.service != event.stamp().service_id()) return false;
-  return std::pair(event.contact(), event.revision()) <= std::pair(known.contact, known.revision);
+  return std::pair(event.contact(), event.revision()) <=
+         std::pair(known.newest.contact, known.newest.revision);
 }
 
 RevisionFilter::Known* RevisionFilter::Find(const Pair& pair) {

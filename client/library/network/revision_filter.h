@@ -37,13 +37,19 @@ class RevisionFilter {
   using Agent = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>;
   using Pair = std::pair<Agent, Agent>;
 
-  /// The newest revision of a pair.
-  struct Known {
-    std::uint64_t service = 0;
-    std::uint32_t contact = 0;
+  /// What an event says, as far as it is compared.
+  struct Revision {
+    std::uint32_t contact = 0;  ///< 0: none.
     std::uint32_t revision = 0;
     v1::EventStatus status{};
     std::int64_t begin_earliest_ns = 0, begin_latest_ns = 0;
+  };
+
+  /// Of a pair.
+  struct Known {
+    std::uint64_t service = 0;  ///< From which the newest is.
+    Revision newest;
+    Revision last_contact;  ///< No forecast.
   };
 
   static Agent Id(const v1::AgentId& id);

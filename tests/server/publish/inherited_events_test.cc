@@ -18,9 +18,11 @@ CollisionEvent Found(std::uint32_t contact, EventStatus status, std::int64_t beg
   event.contact = contact;
   event.status = status;
   event.begin = {Instant::FromNanoseconds(begin_ns), Instant::FromNanoseconds(begin_ns + 10)};
+  if (status == EventStatus::kEnded) event.end.latest = Instant::FromNanoseconds(begin_ns + 50);
   return event;
 }
 
+/// Forecasts have no sequence of contacts.
 v1::CollisionEvent Told(std::uint32_t contact, v1::EventStatus status, std::int64_t begin_ns) {
   v1::CollisionEvent event;
   event.mutable_lower()->set_slot(1);
@@ -29,6 +31,9 @@ v1::CollisionEvent Told(std::uint32_t contact, v1::EventStatus status, std::int6
   event.set_status(status);
   event.mutable_begin()->set_earliest_ns(begin_ns + 2);
   event.mutable_begin()->set_latest_ns(begin_ns + 8);
+  const bool over = status == v1::EVENT_ENDED;
+  event.mutable_end()->set_latest_ns(over ? begin_ns + 50 : Instant::Never().nanoseconds());
+  if (over || status == v1::EVENT_CONFIRMED) event.set_contacts_sequence(1);
   return event;
 }
 
@@ -63,6 +68,73 @@ TEST(InheritedEvents, OneThatJoinedLateGoesOnWithTheNumbersThatReadersKnow) {
   InheritedEvents next;
   next.Hear(Told(7, v1::EVENT_ENDED, 100));
   EXPECT_EQ(next.NumberOf(Found(1, EventStatus::kPossible, 500)), 8u);
+}
+
+// One of the two joined while the pair was in contact, and knows no begin; or it has counted a
+// forecast that the other one did not have.
+TEST(InheritedEvents, WhatIsOneContactIsNotToldTwice) {
+  CollisionEvent joined = Found(2, EventStatus::kEnded, 130);
+  joined.began_before = true;
+  InheritedEvents events;
+  events.Hear(Told(1, v1::EVENT_ENDED, 100));
+  events.Keep(joined);
+  events.Keep(Found(2, EventStatus::kEnded, 100));
+  EXPECT_TRUE(events.TakeUntold().empty());
+  joined.begin = {Instant::FromNanoseconds(400), Instant::FromNanoseconds(400)};
+  joined.end.latest = Instant::FromNanoseconds(500);
+  events.Keep(joined);
+  EXPECT_EQ(events.TakeUntold().size(), 1u) << "after its end it is another one";
+}
+
+// The next one is announced, and hides nothing of the one that is over.
+TEST(InheritedEvents, AForecastHidesNoContact) {
+  InheritedEvents events;
+  events.Hear(Told(1, v1::EVENT_ENDED, 100));
+  events.Hear(Told(2, v1::EVENT_POSSIBLE, 500));
+  events.Keep(Found(1, EventStatus::kEnded, 100));
+  EXPECT_TRUE(events.TakeUntold().empty());
+  events.Keep(Found(1, EventStatus::kConfirmed, 600));
+  const std::vector<CollisionEvent> untold = events.TakeUntold();
+  ASSERT_EQ(untold.size(), 1u) << "it joined after the first";
+  EXPECT_EQ(events.NumberOf(untold[0]), 2u) << "goes on with the forecast";
+  EXPECT_EQ(events.NumberOf(Found(2, EventStatus::kPossible, 900)), 3u);
+}
+
+// A standby that joined late knows fewer states.
+TEST(InheritedEvents, WhereTheServiceHasFoundFreedomNothingIsUndecidedForReaders) {
+  v1::CollisionEvent dismissed = Told(1, v1::EVENT_DISMISSED, 100);
+  dismissed.set_now_ns(150);
+  for (const v1::CollisionEvent& told : {dismissed, Told(1, v1::EVENT_POSSIBLE, 150)}) {
+    InheritedEvents events;
+    events.Hear(told);
+    CollisionEvent undecided = Found(1, EventStatus::kUndecided, 100);
+    undecided.end.latest = Instant::FromNanoseconds(150);
+    events.Keep(undecided);
+    EXPECT_TRUE(events.TakeUntold().empty());
+    undecided.end.latest = Instant::FromNanoseconds(200);
+    events.Keep(undecided);
+    EXPECT_EQ(events.TakeUntold().size(), 1u);
+  }
+}
+
+// What has no end yet, and no begin, is over before the next one.
+TEST(InheritedEvents, TheNextOneIsToldThoughTheEndWasNot) {
+  v1::CollisionEvent told = Told(1, v1::EVENT_CONFIRMED, 100);
+  told.set_began_before(true);
+  InheritedEvents events;
+  events.Hear(told);
+  events.Keep(Found(1, EventStatus::kEnded, 90));
+  events.Keep(Found(2, EventStatus::kConfirmed, 300));
+  EXPECT_EQ(events.TakeUntold().size(), 2u);
+}
+
+TEST(InheritedEvents, AContactIsNotTakenForAForecastThatCameToNothing) {
+  InheritedEvents events;
+  events.Hear(Told(1, v1::EVENT_DISMISSED, 100));
+  events.Keep(Found(2, EventStatus::kConfirmed, 100));
+  const std::vector<CollisionEvent> untold = events.TakeUntold();
+  ASSERT_EQ(untold.size(), 1u);
+  EXPECT_EQ(events.NumberOf(untold[0]), 2u);
 }
 
 TEST(InheritedEvents, AForecastThatCameLateDoesNotReopenAContact) {

@@ -69,6 +69,28 @@ TEST_F(RevisionFilterTest, AnotherServiceRepeatsWhatIsKnownAndCountsAnew) {
   EXPECT_TRUE(IsNew(anew));
 }
 
+TEST_F(RevisionFilterTest, WhatIsRepeatedIsKnownThoughTheNextForecastWasFaster) {
+  EXPECT_TRUE(IsNew(Event(1, 4, v1::EVENT_CONFIRMED, 1)));
+  EXPECT_TRUE(IsNew(Event(2, 1, v1::EVENT_POSSIBLE)));
+  EXPECT_TRUE(IsNew(Event(1, 5, v1::EVENT_ENDED, 2)));
+  contacts_.Restart();
+  std::uint64_t sequence = 0;
+  for (const auto status : {v1::EVENT_CONFIRMED, v1::EVENT_ENDED}) {
+    v1::CollisionEvent repeated = Event(1, 5, status, ++sequence);
+    repeated.mutable_stamp()->set_service_id(2);
+    EXPECT_FALSE(IsNew(repeated)) << status;
+  }
+  v1::CollisionEvent forecast = Event(2, 1, v1::EVENT_POSSIBLE);
+  forecast.mutable_stamp()->set_service_id(2);
+  EXPECT_FALSE(IsNew(forecast));
+  v1::CollisionEvent next = Event(2, 2, v1::EVENT_CONFIRMED, ++sequence);
+  next.mutable_stamp()->set_service_id(2);
+  next.mutable_begin()->set_earliest_ns(5);
+  next.mutable_begin()->set_latest_ns(6);
+  EXPECT_TRUE(IsNew(next));
+  EXPECT_EQ(filter_.contacts_repeated(), 2u);
+}
+
 TEST_F(RevisionFilterTest, TheNewestPairsAreRememberedAndTheOldestForgotten) {
   v1::CollisionEvent event = Event(1, 1, v1::EVENT_POSSIBLE);
   const std::uint32_t last = 2 * RevisionFilter::kPairsMax + 1;
