@@ -19,7 +19,10 @@ std::string Name(const HeardService& service) {
 
 void ServiceClaim::Hear(const HeardService& heard, std::int64_t now_ns) {
   if (heard.instance == options_.instance) return;
-  if (heard.phase == OtherPhase::kServing) highest_heard_ = std::max(highest_heard_, heard.term);
+  if (heard.phase == OtherPhase::kServing) {
+    highest_heard_ = std::max(highest_heard_, heard.term);
+    contended_ns_ = now_ns;
+  }
   auto known = others_.find(heard.instance);
   if (known == others_.end()) {
     std::erase_if(others_, [&](const auto& other) {
@@ -112,7 +115,8 @@ bool ServiceClaim::TakesOver(std::int64_t now_ns) {
 }
 
 void ServiceClaim::Serve(std::int64_t now_ns) {
-  if (phase_ == ClaimPhase::kStandby) took_over_ns_ = now_ns;
+  contended_ns_.reset();
+  if (phase_ == ClaimPhase::kStandby) contended_ns_ = now_ns;
   const std::uint32_t highest = std::max({highest_heard_, options_.term_before, term_});
   term_ = highest == std::numeric_limits<std::uint32_t>::max() ? highest : highest + 1;
   phase_ = ClaimPhase::kServing;
@@ -152,11 +156,7 @@ std::optional<std::int64_t> ServiceClaim::NextDue() const {
 }
 
 bool ServiceClaim::IsContended(std::int64_t now_ns) const {
-  if (took_over_ns_ && now_ns - *took_over_ns_ <= kContendedForNs) return true;
-  return std::any_of(others_.begin(), others_.end(), [now_ns](const auto& other) {
-    return other.second.newest.phase == OtherPhase::kServing &&
-           now_ns - other.second.heard_ns <= kContendedForNs;
-  });
+  return contended_ns_ && now_ns - *contended_ns_ <= kContendedForNs;
 }
 
 std::vector<std::string> ServiceClaim::Conflicts(std::int64_t now_ns) const {

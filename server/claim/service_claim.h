@@ -123,7 +123,7 @@ class ServiceClaim {
   const ClaimOptions options_;
   ClaimPhase phase_ = ClaimPhase::kClaiming;
   std::optional<std::int64_t> since_ns_;  ///< Of the claim, or of the waking.
-  std::optional<std::int64_t> took_over_ns_;
+  std::optional<std::int64_t> contended_ns_;  ///< Serving: when it last was, though that one ended.
   std::optional<std::int64_t> vacant_ns_;  ///< Since when nobody serves; while it stands by.
   std::uint32_t term_ = 0;
   std::uint32_t standby_term_ = 0;

@@ -335,9 +335,9 @@ void MonitorStops(const Setting& setting, Outcome* outcome) {
         outcome);
     // With so few the other monitor may lose some, too.
     if (depth > 2) JudgeAll(fleet, *scene, scene->monitor(), outcome);
-    const auto& all = scene->monitor().contacts().begin()->second;
     std::uint64_t missing = 0;
-    for (const std::uint64_t number : all) {
+    for (const Published& published : scene->service().published()) {
+      const std::uint64_t number = published.output.collision_event().contacts_sequence();
       if (!lazy.contacts().empty() && number >= *lazy.contacts().begin()->second.begin()) {
         missing += lazy.contacts().begin()->second.contains(number) ? 0 : 1;
       }

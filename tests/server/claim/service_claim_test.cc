@@ -174,6 +174,16 @@ TEST(ServiceClaim, ATermThatSimulatorsFollowCountsUnlessItIsTheGreatest) {
   EXPECT_EQ(former.phase(), ClaimPhase::kYielded);
 }
 
+// What the other one has written last may still be on its way.
+TEST(ServiceClaim, TheWorldIsContendedThoughTheOtherServiceHasEnded) {
+  ServiceClaim claim = Serving(5);
+  EXPECT_FALSE(claim.IsContended(kSecond));
+  claim.Hear({.instance = 9, .term = 1, .phase = OtherPhase::kServing, .sequence = 1}, 2 * kSecond);
+  claim.HearEnd(9);
+  EXPECT_TRUE(claim.IsContended(2 * kSecond + kContendedForNs));
+  EXPECT_FALSE(claim.IsContended(2 * kSecond + kContendedForNs + 1));
+}
+
 TEST(ServiceClaim, TheWorldIsContendedForAWhileAfterAnotherServiceWasHeard) {
   ServiceClaim claim = Serving(1);
   EXPECT_FALSE(claim.IsContended(kSecond));
