@@ -1,0 +1,143 @@
+#include "tests/soak/honest.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace collision::soak {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr std::int64_t kStepNs = 16'666'667;
+constexpr int kSteps = 24;  // of a lap: the last third leaves time to be told
+/// The passing agent flies along x, through the resting one at 0; both have this radius.
+constexpr double kRadius = 1, kSpeed = 30, kStart = -4.25;
+/// In the middle between two steps, the second one is the first that shows it.
+constexpr std::int64_t kTouchNs = 75'000'000, kPartNs = 208'333'333;
+constexpr int kShows = 5;
+/// The wall clock of a sender, and the steps of its agents between two states.
+constexpr std::int64_t kTolerance = 2'500'000;
+/// Far from all that others do.
+constexpr double kAway = 1e6;
+constexpr std::chrono::seconds kPatience{60};
+
+double Seconds() {
+  return std::chrono::duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+std::int64_t WallNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+bool Holds(const client::TimeBracket& bracket, std::int64_t t_ns) {
+  return bracket.earliest_ns - kTolerance <= t_ns && t_ns <= bracket.latest_ns + kTolerance;
+}
+
+}  // namespace
+
+double QuantileOf(std::vector<double> values, double part) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
+}
+
+Honest::Honest(const std::string& world, std::uint32_t domain, bool lock_step,
+               suite::Outcome* outcome)
+    : lock_step_(lock_step),
+      outcome_(*outcome),
+      world_(client::World::Connect(
+          {.world = world, .simulator = "honest", .domain = domain, .lock_step = lock_step})),
+      shape_(client::Shape::Make({.solids = {client::Solid::Ball(kRadius)}})) {
+  world_.OnEvent([this](const client::Event& event) { Hear(event); });
+}
+
+bool Honest::Fly(double seconds, int laps, Served* served) {
+  served_ = served;
+  const double end_s = Seconds() + seconds;
+  while (served->laps < laps || Seconds() < end_s) {
+    if (!Lap(served)) return outcome_.Expect(false, "the honest one was not answered");
+  }
+  return true;
+}
+
+bool Honest::Lap(Served* served) {
+  begin_ns_ = lock_step_ ? begin_ns_ + kSteps * kStepNs : WallNs();
+  shown_at_s_ = -1;
+  heard_.clear();
+  const client::State rests{.stamp_ns = begin_ns_, .position_m = {0, kAway, 0}};
+  if (!resting_) {
+    resting_ = world_.AddAgent(
+        {.name = "resting", .radius_m = kRadius, .acceleration_max_m_s2 = 0.1}, rests);
+  }
+  passing_.reset();
+  passing_ = world_.AddAgent({.name = "passing",
+                              .radius_m = shape_->radius_m(),
+                              .acceleration_max_m_s2 = 0.1,
+                              .shape = shape_},
+                             Passing(0));
+  for (int step = 0; step < kSteps; ++step) {
+    if (!Step(step, served)) return false;
+  }
+  Judge();
+  ++served->laps;
+  return true;
+}
+
+bool Honest::Step(int step, Served* served) {
+  const std::int64_t t_ns = StampOf(step);
+  while (!lock_step_ && WallNs() < t_ns) {
+    world_.Poll(std::chrono::nanoseconds(t_ns - WallNs()));
+  }
+  resting_->SetState({.stamp_ns = t_ns, .position_m = {0, kAway, 0}});
+  passing_->SetState(Passing(step));
+  const double before_s = Seconds();
+  if (world_.AdvanceTo(t_ns, kPatience) == client::Advance::kTimeout) return false;
+  const double after_s = Seconds();
+  if (lock_step_) served->answers_ms.push_back(1e3 * (after_s - before_s));
+  if (step == kShows) shown_at_s_ = after_s;
+  return true;
+}
+
+void Honest::Hear(const client::Event& event) {
+  if (!client::IsDecided(event.status)) return;
+  if (heard_.empty() && shown_at_s_ > 0) {
+    served_->events_ms.push_back(1e3 * (Seconds() - shown_at_s_));
+  }
+  heard_.push_back(event);
+}
+
+/// The last word on the contact of this lap.
+void Honest::Judge() {
+  if (!outcome_.Expect(!heard_.empty(), "a contact was not heard")) return;
+  const client::Event& last = heard_.back();
+  outcome_.Expect(last.status == client::EventStatus::kEnded,
+                  std::string("a contact is ") + client::Name(last.status) + " at last, not ended");
+  // By the wall clock it may be known only after the begin.
+  const bool begin_holds = last.began_before || Holds(last.begin, begin_ns_ + kTouchNs);
+  outcome_.Expect(begin_holds && Holds(last.end, begin_ns_ + kPartNs),
+                  "a bracket does not hold: begin [" + Relative(last.begin) + "], end [" +
+                      Relative(last.end) + "] ms of the lap");
+  if (!lock_step_) return;
+  const std::vector<std::int64_t> brackets = {
+      last.begin.earliest_ns - begin_ns_, last.begin.latest_ns - begin_ns_,
+      last.end.earliest_ns - begin_ns_, last.end.latest_ns - begin_ns_};
+  if (brackets_.empty()) brackets_ = brackets;
+  outcome_.Expect(brackets == brackets_, "not every lap has the same brackets");
+}
+
+std::string Honest::Relative(const client::TimeBracket& bracket) const {
+  return suite::Show(1e-6 * static_cast<double>(bracket.earliest_ns - begin_ns_)) + ", " +
+         suite::Show(1e-6 * static_cast<double>(bracket.latest_ns - begin_ns_));
+}
+
+client::State Honest::Passing(int step) const {
+  const double x = kStart + kSpeed * 1e-9 * static_cast<double>(step * kStepNs);
+  return {.stamp_ns = StampOf(step), .position_m = {x, kAway, 0}, .velocity_m_s = {kSpeed, 0, 0}};
+}
+
+std::int64_t Honest::StampOf(int step) const { return begin_ns_ + step * kStepNs; }
+
+}  // namespace collision::soak

@@ -1,0 +1,59 @@
+// An honest simulator that measures how it is served: laps that are all alike.
+//
+// A lap is 0.4 s in which one agent passes through another one. The passing agent
+// is a new one in each lap, with a shape that was given up after the last lap: so a lap needs a
+// place for an agent, a shape and a pair, too.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/api/shape.h"
+#include "client/api/world.h"
+#include "tests/support/suite/case.h"
+
+namespace collision::soak {
+
+/// What some laps were answered.
+struct Served {
+  int laps = 0;
+  std::vector<double> answers_ms;  ///< Lock-step: each wait for the next step's grant.
+  std::vector<double> events_ms;   ///< From the state that shows a contact to its event.
+};
+
+/// The part-quantile; 0 of nothing.
+double QuantileOf(std::vector<double> values, double part);
+
+class Honest {
+ public:
+  /// Throws std::runtime_error where it cannot connect.
+  Honest(const std::string& world, std::uint32_t domain, bool lock_step, suite::Outcome* outcome);
+
+  /// Flies for so long, and so many laps at least. Every lap must be told the same contact, in
+  /// brackets that hold; in lock-step they are the same in each. False: it was not answered.
+  bool Fly(double seconds, int laps, Served* served);
+
+ private:
+  bool Lap(Served* served);
+  bool Step(int step, Served* served);
+  void Hear(const client::Event& event);
+  void Judge();
+  std::string Relative(const client::TimeBracket& bracket) const;
+  client::State Passing(int step) const;
+  std::int64_t StampOf(int step) const;
+
+  const bool lock_step_;
+  suite::Outcome& outcome_;
+  client::World world_;
+  std::shared_ptr<const client::Shape> shape_;
+  std::optional<client::Agent> resting_, passing_;
+  std::int64_t begin_ns_ = 0;  ///< Of the lap.
+  double shown_at_s_ = -1;     ///< When the state was sent that shows the contact; -1: not yet.
+  Served* served_ = nullptr;
+  std::vector<client::Event> heard_;    ///< Of this lap: contacts.
+  std::vector<std::int64_t> brackets_;  ///< Of the first lap, from its begin on.
+};
+
+}  // namespace collision::soak
