@@ -182,8 +182,9 @@ void Fill(const std::string& world, std::uint32_t domain, int count, double apar
   if (!now_ns) return;
   std::vector<client::Agent> agents;
   for (int i = 0; i < count; ++i) {
-    agents.push_back(connection.AddAgent({.name = "rests-" + std::to_string(i), .radius_m = 1},
-                                         {.stamp_ns = *now_ns, .position_m = {apart * i, 0, 0}}));
+    agents.push_back(connection.AddAgent(
+        {.name = "rests-" + std::to_string(i), .radius_m = 1, .acceleration_max_m_s2 = 1e-9},
+        {.stamp_ns = *now_ns, .position_m = {apart * i, 0, 0}}));
   }
   connection.AdvanceTo(*now_ns, kPatience);
   connection.Finish();

@@ -10,7 +10,7 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr std::int64_t kStepNs = 16'666'667;
-constexpr int kSteps = 24;  // of a lap: the last third leaves time to be told
+constexpr int kSteps = 24;  // of a lap
 /// The passing agent flies along x, through the resting one at 0; both have this radius.
 constexpr double kRadius = 1, kSpeed = 30, kStart = -4.25;
 /// In the middle between two steps, the second one is the first that shows it.
@@ -32,8 +32,8 @@ std::int64_t WallNs() {
       .count();
 }
 
-bool Holds(const client::TimeBracket& bracket, std::int64_t t_ns) {
-  return bracket.earliest_ns - kTolerance <= t_ns && t_ns <= bracket.latest_ns + kTolerance;
+bool Holds(std::int64_t earliest_ns, std::int64_t t_ns, std::int64_t latest_ns) {
+  return earliest_ns - kTolerance <= t_ns && t_ns <= latest_ns + kTolerance;
 }
 
 }  // namespace
@@ -64,13 +64,13 @@ bool Honest::Fly(double seconds, int laps, Served* served) {
 }
 
 bool Honest::Lap(Served* served) {
-  begin_ns_ = lock_step_ ? begin_ns_ + kSteps * kStepNs : WallNs();
+  const bool first = !resting_.has_value();
+  if (!first) before_ = lap_;
+  lap_ = {.begin_ns = lock_step_ ? lap_.begin_ns + kSteps * kStepNs : WallNs()};
   shown_at_s_ = -1;
-  heard_.clear();
-  const client::State rests{.stamp_ns = begin_ns_, .position_m = {0, kAway, 0}};
-  if (!resting_) {
+  if (first) {
     resting_ = world_.AddAgent(
-        {.name = "resting", .radius_m = kRadius, .acceleration_max_m_s2 = 0.1}, rests);
+        {.name = "resting", .radius_m = kRadius, .acceleration_max_m_s2 = 0.1}, Resting(0));
   }
   passing_.reset();
   passing_ = world_.AddAgent({.name = "passing",
@@ -78,10 +78,11 @@ bool Honest::Lap(Served* served) {
                               .acceleration_max_m_s2 = 0.1,
                               .shape = shape_},
                              Passing(0));
+  lap_.passing = passing_->id();
   for (int step = 0; step < kSteps; ++step) {
     if (!Step(step, served)) return false;
   }
-  Judge();
+  if (before_) Judge(*before_);
   ++served->laps;
   return true;
 }
@@ -91,7 +92,7 @@ bool Honest::Step(int step, Served* served) {
   while (!lock_step_ && WallNs() < t_ns) {
     world_.Poll(std::chrono::nanoseconds(t_ns - WallNs()));
   }
-  resting_->SetState({.stamp_ns = t_ns, .position_m = {0, kAway, 0}});
+  resting_->SetState(Resting(step));
   passing_->SetState(Passing(step));
   const double before_s = Seconds();
   if (world_.AdvanceTo(t_ns, kPatience) == client::Advance::kTimeout) return false;
@@ -103,34 +104,40 @@ bool Honest::Step(int step, Served* served) {
 
 void Honest::Hear(const client::Event& event) {
   if (!client::IsDecided(event.status)) return;
-  if (heard_.empty() && shown_at_s_ > 0) {
-    served_->events_ms.push_back(1e3 * (Seconds() - shown_at_s_));
+  const auto is_of = [&](const Flown& lap) {
+    return event.lower == lap.passing || event.higher == lap.passing;
+  };
+  if (is_of(lap_)) {
+    if (!lap_.last && shown_at_s_ > 0)
+      served_->events_ms.push_back(1e3 * (Seconds() - shown_at_s_));
+    lap_.last = event;
+  } else if (before_ && is_of(*before_)) {
+    before_->last = event;
   }
-  heard_.push_back(event);
 }
 
-/// The last word on the contact of this lap.
-void Honest::Judge() {
-  if (!outcome_.Expect(!heard_.empty(), "a contact was not heard")) return;
-  const client::Event& last = heard_.back();
-  outcome_.Expect(last.status == client::EventStatus::kEnded,
-                  std::string("a contact is ") + client::Name(last.status) + " at last, not ended");
-  // By the wall clock it may be known only after the begin.
-  const bool begin_holds = last.began_before || Holds(last.begin, begin_ns_ + kTouchNs);
-  outcome_.Expect(begin_holds && Holds(last.end, begin_ns_ + kPartNs),
-                  "a bracket does not hold: begin [" + Relative(last.begin) + "], end [" +
-                      Relative(last.end) + "] ms of the lap");
-  if (!lock_step_) return;
+void Honest::Judge(const Flown& lap) {
+  if (!outcome_.Expect(lap.last.has_value(), "a contact was not heard")) return;
+  const client::Event& last = *lap.last;
+  if (last.status != client::EventStatus::kEnded) {
+    ++unended_;
+    return;
+  }
   const std::vector<std::int64_t> brackets = {
-      last.begin.earliest_ns - begin_ns_, last.begin.latest_ns - begin_ns_,
-      last.end.earliest_ns - begin_ns_, last.end.latest_ns - begin_ns_};
+      last.begin.earliest_ns - lap.begin_ns, last.begin.latest_ns - lap.begin_ns,
+      last.end.earliest_ns - lap.begin_ns, last.end.latest_ns - lap.begin_ns};
+  // By the wall clock it may be known only after the begin.
+  const bool begin_holds = last.began_before || Holds(brackets[0], kTouchNs, brackets[1]);
+  std::string text = "a bracket does not hold, of begin and end:";
+  for (const std::int64_t at_ns : brackets) text += " " + std::to_string(at_ns);
+  outcome_.Expect(begin_holds && Holds(brackets[2], kPartNs, brackets[3]), text);
+  if (!lock_step_) return;
   if (brackets_.empty()) brackets_ = brackets;
   outcome_.Expect(brackets == brackets_, "not every lap has the same brackets");
 }
 
-std::string Honest::Relative(const client::TimeBracket& bracket) const {
-  return suite::Show(1e-6 * static_cast<double>(bracket.earliest_ns - begin_ns_)) + ", " +
-         suite::Show(1e-6 * static_cast<double>(bracket.latest_ns - begin_ns_));
+client::State Honest::Resting(int step) const {
+  return {.stamp_ns = StampOf(step), .position_m = {0, kAway, 0}};
 }
 
 client::State Honest::Passing(int step) const {
@@ -138,6 +145,6 @@ client::State Honest::Passing(int step) const {
   return {.stamp_ns = StampOf(step), .position_m = {x, kAway, 0}, .velocity_m_s = {kSpeed, 0, 0}};
 }
 
-std::int64_t Honest::StampOf(int step) const { return begin_ns_ + step * kStepNs; }
+std::int64_t Honest::StampOf(int step) const { return lap_.begin_ns + step * kStepNs; }
 
 }  // namespace collision::soak

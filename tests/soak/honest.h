@@ -32,15 +32,26 @@ class Honest {
   Honest(const std::string& world, std::uint32_t domain, bool lock_step, suite::Outcome* outcome);
 
   /// Flies for so long, and so many laps at least. Every lap must be told the same contact, in
-  /// brackets that hold; in lock-step they are the same in each. False: it was not answered.
+  /// brackets that hold; in lock-step they are the same in each. The last lap is judged with the next ones. False: it was
+  /// not answered.
   bool Fly(double seconds, int laps, Served* served);
 
+  /// Contacts that were heard of and not as ended, before their agents were gone.
+  int unended() const { return unended_; }
+
  private:
+  /// What was heard of the contact of one lap.
+  struct Flown {
+    std::int64_t begin_ns = 0;
+    client::AgentId passing;
+    std::optional<client::Event> last;
+  };
+
   bool Lap(Served* served);
   bool Step(int step, Served* served);
   void Hear(const client::Event& event);
-  void Judge();
-  std::string Relative(const client::TimeBracket& bracket) const;
+  void Judge(const Flown& lap);
+  client::State Resting(int step) const;
   client::State Passing(int step) const;
   std::int64_t StampOf(int step) const;
 
@@ -49,10 +60,11 @@ class Honest {
   client::World world_;
   std::shared_ptr<const client::Shape> shape_;
   std::optional<client::Agent> resting_, passing_;
-  std::int64_t begin_ns_ = 0;  ///< Of the lap.
-  double shown_at_s_ = -1;     ///< When the state was sent that shows the contact; -1: not yet.
+  Flown lap_;
+  std::optional<Flown> before_;  ///< The lap before: its contact may be heard of until now.
+  double shown_at_s_ = -1;       ///< When the state was sent that shows the contact; -1: not yet.
+  int unended_ = 0;
   Served* served_ = nullptr;
-  std::vector<client::Event> heard_;    ///< Of this lap: contacts.
   std::vector<std::int64_t> brackets_;  ///< Of the first lap, from its begin on.
 };
 
