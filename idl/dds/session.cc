@@ -215,8 +215,8 @@ class DdsSession::Implementation {
     return writer;
   }
 
-  /// What was written under this key is kept until it has arrived, and no longer. DDS would keep the
-  /// key for good, and its newest sample, or that it was disposed of, for those that join later.
+  /// What was written under this key is kept until it has arrived. Otherwise DDS would keep the key
+  /// for good, and its newest sample, or that it was disposed of, for those that join later.
   void Withdraw(dds::TopicId topic, const void* key) {
     const dds_entity_t writer = Writer(topic);
     if (dds_lookup_instance(writer, key) != DDS_HANDLE_NIL) dds_unregister_instance(writer, key);

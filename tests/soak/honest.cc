@@ -66,7 +66,9 @@ bool Honest::Fly(double seconds, int laps, Served* served) {
 bool Honest::Lap(Served* served) {
   const bool first = !resting_.has_value();
   if (!first) before_ = lap_;
-  lap_ = {.begin_ns = lock_step_ ? lap_.begin_ns + kSteps * kStepNs : WallNs()};
+  const std::int64_t begin_ns = lock_step_ ? lap_.begin_ns + kSteps * kStepNs : WallNs();
+  lap_ = Flown();
+  lap_.begin_ns = begin_ns;
   shown_at_s_ = -1;
   if (first) {
     resting_ = world_.AddAgent(
