@@ -31,12 +31,12 @@ class Honest {
   /// Throws std::runtime_error where it cannot connect.
   Honest(const std::string& world, std::uint32_t domain, bool lock_step, suite::Outcome* outcome);
 
-  /// Flies for so long, and so many laps at least. Every lap must be told the same contact, in
+  /// Flies for so long, and so many laps at least. Every lap should be told the same contact, in
   /// brackets that hold; in lock-step they are the same in each. A lap is judged at the end of the
   /// next one. False: it was not answered.
   bool Fly(double seconds, int laps, Served* served);
 
-  /// Contacts that were heard of and not as ended, before their agents were gone.
+  /// Laps whose contact was not heard of as ended.
   int unended() const { return unended_; }
 
  private:
