@@ -16,6 +16,8 @@ constexpr double kRadius = 1, kSpeed = 30, kStart = -4.25;
 /// In the middle between two steps, the second one is the first that shows it.
 constexpr std::int64_t kTouchNs = 75'000'000, kPartNs = 208'333'333;
 constexpr int kShows = 5;
+/// Until then its places are free.
+constexpr int kEnters = 2;
 /// The wall clock of a sender, and the steps of its agents between two states.
 constexpr std::int64_t kTolerance = 2'500'000;
 /// Far from all that others do.
@@ -75,12 +77,6 @@ bool Honest::Lap(Served* served) {
         {.name = "resting", .radius_m = kRadius, .acceleration_max_m_s2 = 0.1}, Resting(0));
   }
   passing_.reset();
-  passing_ = world_.AddAgent({.name = "passing",
-                              .radius_m = shape_->radius_m(),
-                              .acceleration_max_m_s2 = 0.1,
-                              .shape = shape_},
-                             Passing(0));
-  lap_.passing = passing_->id();
   for (int step = 0; step < kSteps; ++step) {
     if (!Step(step, served)) return false;
   }
@@ -89,13 +85,23 @@ bool Honest::Lap(Served* served) {
   return true;
 }
 
+void Honest::Enter() {
+  passing_ = world_.AddAgent({.name = "passing",
+                              .radius_m = shape_->radius_m(),
+                              .acceleration_max_m_s2 = 0.1,
+                              .shape = shape_},
+                             Passing(kEnters));
+  lap_.passing = passing_->id();
+}
+
 bool Honest::Step(int step, Served* served) {
   const std::int64_t t_ns = StampOf(step);
   while (!lock_step_ && WallNs() < t_ns) {
     world_.Poll(std::chrono::nanoseconds(t_ns - WallNs()));
   }
   resting_->SetState(Resting(step));
-  passing_->SetState(Passing(step));
+  if (step == kEnters) Enter();
+  if (passing_) passing_->SetState(Passing(step));
   const double before_s = Seconds();
   if (world_.AdvanceTo(t_ns, kPatience) == client::Advance::kTimeout) return false;
   const double after_s = Seconds();

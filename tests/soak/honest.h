@@ -1,8 +1,8 @@
 // An honest simulator that measures how it is served: laps that are all alike.
 //
-// A lap is 0.4 s in which one agent passes through another one. The passing agent
-// is a new one in each lap, with a shape that was given up after the last lap: so a lap needs a
-// place for an agent, a shape and a pair, too.
+// A lap is 0.4 s in which one agent passes through another one. The passing agent is a new one in
+// each lap, with a shape that was given up after the last lap, and for a while nothing of it is
+// there: so each lap needs a place for an agent, for a shape and for a pair.
 #pragma once
 
 #include <cstdint>
@@ -48,6 +48,7 @@ class Honest {
   };
 
   bool Lap(Served* served);
+  void Enter();
   bool Step(int step, Served* served);
   void Hear(const client::Event& event);
   void Judge(const Flown& lap);
