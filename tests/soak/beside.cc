@@ -119,10 +119,7 @@ class Beside {
     bad_->Signal(SIGKILL);
     daemon_->Signal(SIGTERM);
     outcome_.Expect(daemon_->WaitForExit() == 0, "the service did not end well: " + daemon_->err());
-    if (kind_.records) {
-      outcome_.Set("recorded_mb",
-                   1e-6 * static_cast<double>(std::filesystem::file_size(recording)));
-    }
+    if (kind_.records) JudgeRecording(recording);
   }
 
  private:
@@ -141,6 +138,14 @@ class Beside {
     outcome_.Greatest("grown_mb", grown);
     outcome_.Greatest("grown_of_allowed", grown / allowed);
     if (!kSanitized) outcome_.Expect(grown <= allowed, "more memory than its accounts");
+  }
+
+  /// It is whole: it can be replayed to its end.
+  void JudgeRecording(const std::string& path) {
+    outcome_.Set("recorded_mb", 1e-6 * static_cast<double>(std::filesystem::file_size(path)));
+    const system_test::Outcome replay =
+        system_test::RunToEnd({system_test::Program("collisiond"), "--replay", path});
+    outcome_.Expect(replay.status == 0, "the recording is damaged: " + replay.err);
   }
 
   void Tell(const Served& alone, const Served& beside) {
