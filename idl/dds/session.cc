@@ -15,6 +15,8 @@
 namespace collision {
 namespace {
 
+constexpr std::uint32_t kChunkMax = wire::kSlotMax / wire::kStatesPerChunkMax;
+
 using dds::Check;
 
 /// Behind the world's name. No simulator has this partition: none has an empty name.
@@ -116,6 +118,19 @@ class DdsSession::Implementation {
     key.shape = shape;
     for (key.part = 0; key.part < parts; ++key.part) {
       if (dds_dispose(writer, &key) != DDS_RETCODE_OK) ++writes_failed_;
+      // No number comes again.
+      Withdraw(dds::TopicId::kShapePart, &key);
+    }
+  }
+
+  void ForgetSimulator(std::uint64_t simulator_id) {
+    collision_v1_SimulatorReport report{};
+    report.simulator_id = simulator_id;
+    Withdraw(dds::TopicId::kSimulatorReport, &report);
+    collision_v1_Clearance clearance{};
+    clearance.simulator_id = simulator_id;
+    for (clearance.chunk = 0; clearance.chunk <= kChunkMax; ++clearance.chunk) {
+      Withdraw(dds::TopicId::kClearance, &clearance);
     }
   }
 
@@ -200,6 +215,13 @@ class DdsSession::Implementation {
     return writer;
   }
 
+  /// What was written under this key is kept until it has arrived. Otherwise DDS would keep the key
+  /// for good, and its newest sample, or that it was disposed of, for those that join later.
+  void Withdraw(dds::TopicId topic, const void* key) {
+    const dds_entity_t writer = Writer(topic);
+    if (dds_lookup_instance(writer, key) != DDS_HANDLE_NIL) dds_unregister_instance(writer, key);
+  }
+
   dds::Inbox* InboxWith(dds_entity_t guard) {
     inbox_.SetGuard(guard);
     return &inbox_;
@@ -246,6 +268,10 @@ void DdsSession::RemoveAgent(const v1::AgentRemoval& removal) {
 
 void DdsSession::RemoveShape(std::uint64_t simulator_id, std::uint32_t shape, std::uint32_t parts) {
   implementation_->RemoveShape(simulator_id, shape, parts);
+}
+
+void DdsSession::ForgetSimulator(std::uint64_t simulator_id) {
+  implementation_->ForgetSimulator(simulator_id);
 }
 
 void DdsSession::Flush() { implementation_->Flush(); }

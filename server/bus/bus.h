@@ -25,6 +25,9 @@ class Bus {
 
   virtual void Publish(const v1::Output& output) = 0;
 
+  /// This simulator is not there any more, nor will what was published to it be asked for.
+  virtual void Forget(std::uint64_t simulator_id) { static_cast<void>(simulator_id); }
+
   /// Sends everything published so far. Called at the end of each step.
   virtual void Flush() = 0;
 

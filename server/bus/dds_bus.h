@@ -35,6 +35,7 @@ class DdsBus final : public Bus {
   /// Throws std::length_error if a field is longer than the network can carry: a bug of ours.
   void Publish(const v1::Output& output) override;
 
+  void Forget(std::uint64_t simulator_id) override { session_.ForgetSimulator(simulator_id); }
   void Flush() override;
   void HoldAfter(std::chrono::nanoseconds standstill) override { standstill_ = standstill; }
   void EndHold(bool publish) override;

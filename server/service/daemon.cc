@@ -127,6 +127,7 @@ class Daemon::Implementation {
       static_cast<void>(rejections_.Take());
     }
     PublishStatus();
+    for (const std::uint64_t simulator : world_.TakeForgotten()) bus_.Forget(simulator);
     bus_.Flush();
     for (const std::string& line : bus_.TakeWarnings()) Log(spdlog::level::warn, "network", line);
 #ifndef NDEBUG

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "collision_core/base/check.h"
 #include "collision_core/numeric/seconds.h"
@@ -32,6 +33,12 @@ Simulator* World::Find(std::uint64_t id) {
   return found == simulators_.end() ? nullptr : &found->second;
 }
 
+std::vector<std::uint64_t> World::TakeForgotten() {
+  std::vector<std::uint64_t> forgotten = std::exchange(forgotten_, {});
+  std::erase_if(forgotten, [this](std::uint64_t id) { return simulators_.contains(id); });
+  return forgotten;
+}
+
 /// A simulator whose name is in the configuration has a place, whether it is there or not.
 bool World::HasRoomFor(std::uint64_t id) const {
   const auto absent = std::count_if(expected_.begin(), expected_.end(), [&](std::uint64_t one) {
@@ -48,6 +55,7 @@ Simulator* World::Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
       return one.second.has_left() && one.second.contenders().empty();
     });
     if (left == simulators_.end()) return nullptr;
+    forgotten_.push_back(left->first);
     simulators_.erase(left);
   }
   quotas_.Enter(id, name);

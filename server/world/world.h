@@ -82,6 +82,9 @@ class World {
   const SimulatorQuotas& quotas() const { return quotas_; }
   void UpdateQuotas();
 
+  /// Those that have left, and since the last call made room for others and did not come back.
+  std::vector<std::uint64_t> TakeForgotten();
+
   std::map<std::uint64_t, Simulator>& simulators() { return simulators_; }
   const std::map<std::uint64_t, Simulator>& simulators() const { return simulators_; }
 
@@ -236,6 +239,7 @@ class World {
   const std::set<std::uint64_t> expected_;  ///< Ids whose names the configuration has.
 
   std::map<std::uint64_t, Simulator> simulators_;
+  std::vector<std::uint64_t> forgotten_;
   SimulatorQuotas quotas_;
   Silence silence_;
   EndedRuns ended_runs_;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <future>
@@ -179,6 +180,43 @@ TEST(DdsBus, ALateReaderReceivesTheNewestSamples) {
       EXPECT_EQ(input.agent_states().states(0).sequence(), 3u);
     }
   }
+}
+
+// Goal:   simulators of ever-new names take no memory of the service after they have left.
+// Method: readers that join later are told nothing of one that is forgotten, once what was written
+//         about it has been acknowledged; what is written about another one comes last.
+TEST(DdsBus, WhatIsForgottenIsNotToldToALateReader) {
+  DdsBus bus(TestWorld(), TestDomain());
+  const auto publish = [&](std::uint64_t simulator) {
+    v1::Output report, clearance;
+    report.mutable_simulator_report()->set_simulator_id(simulator);
+    bus.Publish(report);
+    for (const std::uint32_t chunk : {0u, 1023u}) {
+      clearance.mutable_clearance()->set_simulator_id(simulator);
+      clearance.mutable_clearance()->set_chunk(chunk);
+      bus.Publish(clearance);
+    }
+  };
+  const std::uint64_t gone = 1, there = 2;
+  publish(gone);
+  bus.Forget(gone);
+  bus.Forget(3);
+  publish(there);
+  bus.Flush();
+  const auto told = [](const std::vector<v1::Output>& outputs, std::uint64_t simulator) {
+    return std::count_if(outputs.begin(), outputs.end(), [&](const v1::Output& output) {
+      return output.simulator_report().simulator_id() == simulator ||
+             output.clearance().simulator_id() == simulator;
+    });
+  };
+  std::vector<v1::Output> heard;
+  const auto end = std::chrono::steady_clock::now() + kDeadline;
+  do {
+    DdsSession late(MonitorOptions(false));
+    heard.clear();
+    ASSERT_TRUE(ReceiveUntil(late, &heard, [&] { return told(heard, there) == 3; }));
+  } while (told(heard, gone) > 0 && std::chrono::steady_clock::now() < end);
+  EXPECT_EQ(told(heard, gone), 0);
 }
 
 TEST(DdsBus, WorldsDoNotMix) {

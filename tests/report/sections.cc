@@ -386,13 +386,11 @@ Section Stress(const v1::Results& results) {
   return section;
 }
 
-Section Faults(const v1::Results& results) {
-  Section section{"faults", "Faults", {}, {}, {}};
-  section.paragraphs = {
-      "What the network and the programs do wrong, what is promised then, and what was measured "
-      "over "
-      "many seeds, with the real client library (./run faults)."};
-  AddTable(TableOf("", Select(results, "faults", {}),
+/// Cases that say what is done to the service, what is promised and what was measured.
+Section CasesOf(const v1::Results& results, const std::string& name, const std::string& title,
+                const std::string& about) {
+  Section section{name, title, {about}, {}, {}};
+  AddTable(TableOf("", Select(results, name, {}),
                    {{"group", "group"},
                     {"name", "case"},
                     {"fault", "fault"},
@@ -400,8 +398,20 @@ Section Faults(const v1::Results& results) {
                     {"measured", "measured"},
                     {"kept", "kept"}}),
            &section);
-  AddWhole(results, "faults", &section);
+  AddWhole(results, name, &section);
   return section;
+}
+
+Section Faults(const v1::Results& results) {
+  return CasesOf(results, "faults", "Faults",
+                 "What the network and the programs do wrong, what is promised then, and what was "
+                 "measured over many seeds, with the real client library (./run faults).");
+}
+
+Section Soak(const v1::Results& results) {
+  return CasesOf(results, "soak", "Soak",
+                 "A week of lock-step over DDS, in which agents, shapes and programs come and go, "
+                 "and each bad client beside an honest one (./run soak).");
 }
 
 Section Trust(const v1::Results& results) {
@@ -423,7 +433,7 @@ Section Trust(const v1::Results& results) {
 std::vector<Section> SectionsOf(const v1::Results& results) {
   return {Precision(results),  Budget(results),  Hubbard(results), Stepping(results),
           BroadPhase(results), Service(results), LeftOut(results), Stress(results),
-          Faults(results),     Trust(results)};
+          Faults(results),     Soak(results),    Trust(results)};
 }
 
 std::vector<MeasuredPlot> MeasuredPlots() {

@@ -32,11 +32,11 @@ class Flood : public testing::TestWithParam<const char*> {};
 TEST_P(Flood, CostsNoMemoryAndNoOtherItsAnswers) {
   const TestWorld world(82, "simulators_awaited: 1");
   const auto daemon = world.StartDaemon();
-  const auto honest = world.StartFlood("answers", "8");
+  const auto honest = world.StartHelper("flood", {"answers", "8"});
   ASSERT_TRUE(honest->WaitForOutput("steps")) << honest->err() << daemon->err();
   const double before_mb = ResidentMb(daemon->pid());
   ASSERT_GT(before_mb, 0);
-  const auto hostile = world.StartFlood(GetParam(), kKeys);
+  const auto hostile = world.StartHelper("flood", {GetParam(), kKeys});
   ASSERT_TRUE(hostile->WaitForOutput("written:")) << hostile->err() << daemon->err();
   if (!kSanitized) {
     EXPECT_LT(ResidentMb(daemon->pid()) - before_mb, kGrowthMaxMb);

@@ -64,9 +64,19 @@ TestWorld::TestWorld(int domain, const std::string& clock, const std::string& mo
 }
 
 void TestWorld::SetStateFolder(const std::string& path) {
+  state_folder_ = path;
+  WriteConfig();
+}
+
+void TestWorld::Configure(const std::string& more) {
+  more_ += more;
+  WriteConfig();
+}
+
+void TestWorld::WriteConfig() {
   config_file_ = folder_.Write("collisiond.textproto",
                                "world: \"" + name_ + "\"\ndomain: " + domain_ + "\nclock { " +
-                                   clock_ + " }\nstate_dir: \"" + path + "\"\n" + more_);
+                                   clock_ + " }\nstate_dir: \"" + state_folder_ + "\"\n" + more_);
 }
 
 void TestWorld::MoveTo(const TwoHosts& hosts, int host) {
@@ -104,10 +114,10 @@ std::unique_ptr<Process> TestWorld::StartPlayer(const std::vector<std::string>& 
   return std::make_unique<Process>(InWorld("trajectory-player", words), variables_);
 }
 
-std::unique_ptr<Process> TestWorld::StartFlood(const std::string& what,
-                                               const std::string& amount) const {
-  return std::make_unique<Process>(OnHost({Program("flood"), what, amount, name_, domain_}),
-                                   variables_);
+std::unique_ptr<Process> TestWorld::StartHelper(const std::string& program,
+                                                const std::vector<std::string>& words) const {
+  return std::make_unique<Process>(
+      OnHost(Joined(Joined({Program(program)}, words), {name_, domain_})), variables_);
 }
 
 std::unique_ptr<Process> TestWorld::StartMonitor(const std::vector<std::string>& words) const {

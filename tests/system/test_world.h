@@ -1,6 +1,7 @@
 // A world of its own for one test: a folder, a DDS domain, a configuration, and the programs in it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -63,11 +64,16 @@ class TestWorld {
   /// Another folder for the journal from here on; empty: none.
   void SetStateFolder(const std::string& path);
 
+  /// More fields of the configuration from here on.
+  void Configure(const std::string& more);
+
   /// From here on programs start on this host, with the profile for several hosts. `hosts` must
   /// outlive them.
   void MoveTo(const TwoHosts& hosts, int host);
 
   const Folder& folder() const { return folder_; }
+  const std::string& name() const { return name_; }
+  std::uint32_t domain() const { return static_cast<std::uint32_t>(std::stoul(domain_)); }
 
   /// Starts collisiond in this world.
   std::unique_ptr<Process> LaunchDaemon(const std::vector<std::string>& options = {}) const;
@@ -82,8 +88,9 @@ class TestWorld {
   /// Starts a trajectory-player with these words, in this world.
   std::unique_ptr<Process> StartPlayer(const std::vector<std::string>& words) const;
 
-  /// Starts a flood (flood.cc) in this world.
-  std::unique_ptr<Process> StartFlood(const std::string& what, const std::string& amount) const;
+  /// Starts a program of the tests; world and domain follow its words.
+  std::unique_ptr<Process> StartHelper(const std::string& program,
+                                       const std::vector<std::string>& words) const;
 
   /// Starts collisionctl with these words, in this world.
   std::unique_ptr<Process> StartMonitor(const std::vector<std::string>& words) const;
@@ -95,6 +102,7 @@ class TestWorld {
   bool MonitorComesToSay(const std::vector<std::string>& words, const std::string& text) const;
 
  private:
+  void WriteConfig();
   std::vector<std::string> OnHost(std::vector<std::string> command) const;
   std::vector<std::string> InWorld(const std::string& program,
                                    const std::vector<std::string>& words) const;
@@ -102,7 +110,7 @@ class TestWorld {
   Folder folder_;
   std::string domain_;
   std::string name_;
-  std::string clock_, more_;
+  std::string clock_, state_folder_, more_;
   std::string config_file_;
   std::vector<std::string> variables_;
   const TwoHosts* hosts_ = nullptr;

@@ -1,5 +1,6 @@
 // Programs that write garbage, in their own names and in those of others.
 #include <limits>
+#include <optional>
 
 #include "idl/identity.h"
 #include "server/config/config.h"
@@ -25,6 +26,18 @@ class Hostile {
     ++written_;
     network_.Write(id_, Message());
     network_.After(kPeriod, [this] { Go(); });
+  }
+
+  /// Likewise, but one state each under ever-new ids, which no name proves.
+  void GoAsGhosts() {
+    ++written_;
+    v1::Input input;
+    v1::AgentStates& states = *input.mutable_agent_states();
+    states.set_simulator_id(random_.Next());
+    states.set_run(1);
+    states.add_states()->mutable_orientation()->set_w(1);
+    network_.Write(id_, input);
+    network_.After(kPeriod, [this] { GoAsGhosts(); });
   }
 
   /// A service that says once that it serves, in the highest term there is.
@@ -176,6 +189,31 @@ void Garbage(const Setting& setting, Outcome* outcome) {
   }
 }
 
+void Ghosts(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(4, 60); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    // The memory of what waits to be proved counts as that of agents.
+    const Fleet fleet{.network = Faulty(seed), .seed = seed, .strangers = kStrangers};
+    std::optional<Hostile> hostile;
+    std::uint64_t simulators = 0, waits = 0;
+    FlyAsPerfect(
+        fleet,
+        [&](Scene* scene) {
+          hostile.emplace(seed + 5000, &scene->network());
+          scene->When(kSecond, [&] { hostile->GoAsGhosts(); });
+          scene->When(fleet.end_ns - kSecond, [&, scene] {
+            simulators = static_cast<std::uint64_t>(scene->service().status().simulators_size());
+            waits = scene->service().counter("unproven_inputs");
+          });
+        },
+        outcome);
+    outcome->Expect(simulators == 3, Seed(seed) + "ghosts became simulators");
+    outcome->Add("hostile_messages", static_cast<double>(hostile->written()));
+    outcome->Greatest("unproven_inputs", static_cast<double>(waits));
+  }
+  outcome->Expect(outcome->Get("unproven_inputs") > 100, "hardly a ghost came");
+}
+
 void HugeTerm(const Setting& setting, Outcome* outcome) {
   for (int i = 0; i < setting.Many(4, 60); ++i) {
     const auto seed = static_cast<std::uint64_t>(i + 1);
@@ -202,6 +240,10 @@ std::vector<Case> HostileCases() {
       {"hostile", "garbage", promise + "; no more simulators than allowed", Garbage,
        "a program writes 500 messages a second: numbers and times that are none, in the names "
        "of others, of their runs, slots and incarnations, and in ever new ones"},
+      {"hostile", "ghosts", promise + "; the same events as without, and no other simulators",
+       Ghosts,
+       "a program writes 500 messages a second, a state each under ever-new ids that no name "
+       "proves"},
       {"hostile", "huge-term", promise + "; the service goes on, with the same events as without",
        HugeTerm, "a status of the highest term there is, once"}};
 }

@@ -116,6 +116,14 @@ TEST(World, HoldsNoMoreSimulatorsThanAllowedAndForgetsThoseThatLeft) {
   world.Find(2)->SetAlive(false, 0);
   EXPECT_TRUE(world.ClaimFor(4, 4, 1, &name).accepted);
   EXPECT_EQ(world.Find(2), nullptr);
+  EXPECT_EQ(world.TakeForgotten(), std::vector<std::uint64_t>{2});
+  EXPECT_TRUE(world.TakeForgotten().empty());
+  // One that comes back in the same step is not forgotten.
+  world.Find(1)->SetAlive(false, 0);
+  EXPECT_TRUE(world.ClaimFor(2, 2, 2, &name).accepted);
+  world.Find(4)->SetAlive(false, 0);
+  EXPECT_TRUE(world.ClaimFor(1, 1, 2, &name).accepted);
+  EXPECT_EQ(world.TakeForgotten(), std::vector<std::uint64_t>{4});
 }
 
 // Goal:   now is the least clock once all awaited simulators have sent one, and never goes back.
