@@ -45,6 +45,9 @@ const Wire& As(const void* sample) {
   return *static_cast<const Wire*>(sample);
 }
 
+/// Other services that are remembered after their end.
+constexpr std::size_t kEndedServicesMax = 64;
+
 void AddServiceEnd(std::uint64_t service, std::vector<v1::Input>* inputs) {
   v1::ServiceHeard& heard = *inputs->emplace_back().mutable_service_heard();
   heard.set_service_id(service);
@@ -172,18 +175,28 @@ void Intake::ReceiveData(TopicId topic, const void* sample, std::uint64_t sender
 
 /// The last of `inputs` is a status of it.
 void Intake::FollowService(const dds_sample_info_t& info, std::vector<v1::Input>* inputs) {
-  const std::uint64_t service = inputs->back().service_heard().service_id();
+  const v1::ServiceHeard& heard = inputs->back().service_heard();
+  services_[info.publication_handle] = heard;
   // A status may outlast its writer in the reader: its end comes after it.
-  if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) return AddServiceEnd(service, inputs);
-  services_[info.publication_handle] = service;
+  if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) EndService(info.publication_handle, inputs);
+}
+
+void Intake::EndService(dds_instance_handle_t writer, std::vector<v1::Input>* inputs) {
+  auto ended = services_.extract(writer);
+  AddServiceEnd(ended.mapped().service_id(), inputs);
+  if (ended_services_.size() == kEndedServicesMax) ended_services_.clear();
+  ended_services_.insert_or_assign(writer, std::move(ended.mapped()));
 }
 
 void Intake::Follow(const std::vector<WriterChange>& changes, std::vector<v1::Input>* inputs) {
   for (const WriterChange& change : changes) {
-    if (const auto service = services_.find(change.writer); service != services_.end()) {
-      if (change.alive) continue;
-      AddServiceEnd(service->second, inputs);
-      services_.erase(service);
+    if (services_.contains(change.writer)) {
+      if (!change.alive) EndService(change.writer, inputs);
+      continue;
+    }
+    if (auto back = ended_services_.extract(change.writer); back && change.alive) {
+      *inputs->emplace_back().mutable_service_heard() = back.mapped();
+      services_.insert(std::move(back));
       continue;
     }
     const std::optional<std::uint64_t> sender = senders_.Of(change.reader, change.writer);

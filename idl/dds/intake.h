@@ -51,8 +51,8 @@ class Intake {
                    std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs);
 
   /// Reports each program that left, fell silent or is back, for every simulator for which it has
-  /// spoken, and each other service that left or fell silent. Call it after Take(): what a program
-  /// wrote comes before the report of its end.
+  /// spoken, and each other service that left or fell silent, or, with its last status again, is
+  /// back. Call it after Take(): what a program wrote comes before the report of its end.
   void Follow(const std::vector<WriterChange>& changes, std::vector<v1::Input>* inputs);
 
  private:
@@ -60,13 +60,15 @@ class Intake {
   void ReceiveData(TopicId topic, const void* sample, std::uint64_t sender,
                    std::vector<v1::Input>* inputs);
   void FollowService(const dds_sample_info_t& info, std::vector<v1::Input>* inputs);
+  void EndService(dds_instance_handle_t writer, std::vector<v1::Input>* inputs);
   bool Wanted(const TopicRow& row, const void* sample) const;
 
   const std::uint64_t own_;
   const std::array<dds_entity_t, kTopics> readers_;
   Senders senders_;
-  /// Which other service wrote a status, by writer, while that lives.
-  std::unordered_map<dds_instance_handle_t, std::uint64_t> services_;
+  /// The last status of each other service, by writer, while that lives.
+  std::unordered_map<dds_instance_handle_t, v1::ServiceHeard> services_;
+  std::unordered_map<dds_instance_handle_t, v1::ServiceHeard> ended_services_;
   SampleBuffers buffers_;
 };
 

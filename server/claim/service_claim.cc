@@ -67,9 +67,15 @@ bool ServiceClaim::HasStandby() const {
 }
 
 void ServiceClaim::WakeUp(std::int64_t now_ns) {
+  woke_ns_ = now_ns;
   if (phase_ != ClaimPhase::kServing || !HasStandby()) return;
   phase_ = ClaimPhase::kWaking;
   since_ns_ = now_ns;
+}
+
+/// What the network said on waking, it said of the time in which this process heard nothing.
+bool ServiceClaim::HasJustWoken(std::int64_t now_ns) const {
+  return woke_ns_ && now_ns - *woke_ns_ < options_.waking_ns;
 }
 
 /// Leaves the world to another service, if there is one that goes first.
@@ -109,6 +115,8 @@ bool ServiceClaim::TakesOver(std::int64_t now_ns) {
     return false;
   }
   if (!vacant_ns_) vacant_ns_ = now_ns;
+  if (HasJustWoken(now_ns)) return false;
+  woke_ns_.reset();
   const bool waits = std::any_of(others_.begin(), others_.end(),
                                  [this](const auto& other) { return WaitsFor(other.second); });
   return !waits || now_ns - *vacant_ns_ >= options_.heard_for_ns;
@@ -151,7 +159,9 @@ std::optional<std::int64_t> ServiceClaim::NextDue() const {
   if (!since_ns_) return std::nullopt;
   if (phase_ == ClaimPhase::kClaiming) return *since_ns_ + options_.wait_ns;
   if (phase_ == ClaimPhase::kWaking) return *since_ns_ + options_.waking_ns;
-  if (phase_ == ClaimPhase::kStandby && vacant_ns_) return *vacant_ns_ + options_.heard_for_ns;
+  if (phase_ == ClaimPhase::kStandby && vacant_ns_) {
+    return woke_ns_ ? *woke_ns_ + options_.waking_ns : *vacant_ns_ + options_.heard_for_ns;
+  }
   return std::nullopt;
 }
 

@@ -55,7 +55,8 @@ struct ClaimOptions {
 /// the lowest term, of these the one with the lowest instance; the others do if it has not within
 /// heard_for_ns. A service that stood still may have been replaced meanwhile: WakeUp() keeps it
 /// from publishing anything before it has listened, and it then yields to one that it hears once.
-/// Whoever has yielded stands by again.
+/// A standby that stood still has heard nothing of the one that serves: WakeUp() keeps it from
+/// taking over before it has listened. Whoever has yielded stands by again.
 ///
 /// Pure bookkeeping: it reads no clock; times are nanoseconds of the monotonic one. One
 /// thread.
@@ -66,11 +67,15 @@ class ServiceClaim {
   /// Takes a status that has arrived. Its own is ignored.
   void Hear(const HeardService& heard, std::int64_t now_ns);
 
-  /// The network says that this service has ended, or has not kept its lease.
+  /// The network says that this service has ended, or has not kept its lease. If it is back, it is
+  /// heard again, with the status that it wrote last.
   void HearEnd(std::uint64_t instance) { others_.erase(instance); }
 
-  /// This process stood still. Does nothing unless it serves and a standby was heard.
+  /// This process stood still. Does nothing unless it stands by, or serves and has heard a standby.
   void WakeUp(std::int64_t now_ns);
+
+  /// Whether it must be told soon when this process stood still for half a lease.
+  bool NeedsWakeUp() const { return phase_ == ClaimPhase::kStandby || HasStandby(); }
 
   /// A simulator follows, or has followed, a service of this term, which may be gone or stand
   /// still: this one goes before it, once it serves. The greatest number is no sign of one.
@@ -115,6 +120,7 @@ class ServiceClaim {
 
   bool GoesFirst(const HeardService& other) const;
   bool Yields(std::int64_t now_ns);
+  bool HasJustWoken(std::int64_t now_ns) const;
   bool TakesOver(std::int64_t now_ns);
   bool WaitsFor(const Other& other) const;
   void Serve(std::int64_t now_ns);
@@ -124,6 +130,7 @@ class ServiceClaim {
   ClaimPhase phase_ = ClaimPhase::kClaiming;
   std::optional<std::int64_t> since_ns_;  ///< Of the claim, or of the waking.
   std::optional<std::int64_t> contended_ns_;  ///< Serving: when it last was, though that one ended.
+  std::optional<std::int64_t> woke_ns_;
   std::optional<std::int64_t> vacant_ns_;  ///< Since when nobody serves; while it stands by.
   std::uint32_t term_ = 0;
   std::uint32_t standby_term_ = 0;

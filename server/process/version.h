@@ -1,9 +1,10 @@
-// The version of this program.
+// The version of this build.
 #pragma once
 
 namespace collision::server {
 
-/// As CMakeLists.txt states it: `--version`, the status topic and recordings contain it.
-inline constexpr char kVersion[] = COLLISION_VERSION;
+/// As the status, recordings and --version tell it. Defined in a file of its own, so that tests can
+/// build the service in another version.
+const char* Version();
 
 }  // namespace collision::server

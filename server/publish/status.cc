@@ -202,7 +202,7 @@ void AddText(const std::string& key, const std::string& text,
 
 v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   v1::ServiceStatus status;
-  status.set_version(kVersion);
+  status.set_version(Version());
   status.set_world(sources.config.world().substr(0, wire::kNameMax));
   status.set_simulated_clock(sources.world.simulated());
   status.set_now_ns(sources.world.now().nanoseconds());

@@ -60,7 +60,7 @@ RecordingWriter::RecordingWriter(const std::string& path, const v1::Config& conf
   if (file_ < 0) throw std::runtime_error(path + ": cannot be written: " + CauseOf(errno));
   v1::RecordingEntry entry;
   entry.mutable_header()->set_format(kRecordingFormat);
-  entry.mutable_header()->set_version(kVersion);
+  entry.mutable_header()->set_version(Version());
   *entry.mutable_header()->mutable_config() = config;
   v1::ServiceClaim& claimed = *entry.mutable_header()->mutable_claim();
   claimed.set_instance(claim.instance);

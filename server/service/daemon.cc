@@ -156,8 +156,7 @@ class Daemon::Implementation {
     if (!world_.simulated()) {
       wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()));
     }
-    // It must know that it has stood still for half a lease.
-    if (claim_.HasStandby()) wait = std::min(wait, Standstill() / 2);
+    if (claim_.NeedsWakeUp()) wait = std::min(wait, Standstill() / 2);
     return std::chrono::nanoseconds(std::max<std::int64_t>(wait, 0));
   }
 

@@ -121,7 +121,7 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
        }});
   const StopSignalWatcher signals([&daemon] { daemon.Stop(); }, kStepPatience,
                                   [recorder] { EndInTheStep(recorder); });
-  spdlog::info("collisiond {}, instance {:016x}, claims world \"{}\" on domain {}", kVersion,
+  spdlog::info("collisiond {}, instance {:016x}, claims world \"{}\" on domain {}", Version(),
                parts.claim.instance, config.world(), config.domain());
   if (parts.journal == nullptr && !has_journal_later)
     spdlog::info("no journal: nothing is kept for the next start");

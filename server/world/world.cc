@@ -255,7 +255,9 @@ void World::TakeOver() {
   std::vector<JournalledSimulator> roster;
   for (auto& [id, simulator] : simulators_) {
     simulator.SetFollows(false);
-    if (!simulator.alive() || !simulator.holds_time()) continue;
+    if (!simulator.holds_time()) continue;
+    // One that is not heard may be there all the same, if this service could not hear it.
+    if (!simulator.alive() && simulator.time().has_finished()) continue;
     roster.push_back({.id = id, .run = simulator.run(), .name = simulator.name(), .granted = {}});
   }
   silence_.AwaitRoster(roster, monotonic_ns());
@@ -305,6 +307,8 @@ void World::BeginWallEpoch() {
 
 Instant World::LatestAllowed(const Simulator& simulator) const {
   if (!simulated_) return numeric::AddRoundedDown(wall_time_.reading(), skew_);
+  // Another service, which it still follows, may have granted it more than this one has heard of.
+  if (!simulator.follows()) return Instant::Never();
   const SimulatorTime& time = simulator.time();
   const bool waits = time.lock_step() && time.granted();
   if (!started_ && !waits && !time.first_clock()) return first_clock_max_;

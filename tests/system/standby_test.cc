@@ -1,6 +1,6 @@
 // Goal:   where a standby runs, the end or the standstill of the service costs nobody a contact.
 // Method: two daemons with one configuration, two simulators in lock-step, a monitor; the daemon
-//         that serves is killed, stopped and woken, or ended in good order.
+//         that serves is killed, stopped and woken, or ended in good order for the next version.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -20,69 +20,78 @@ std::size_t Count(const std::string& text, const std::string& part) {
   return count;
 }
 
+/// All programs run; the first service serves, the second one stands by.
 class StandbyTest : public testing::Test {
  protected:
-  explicit StandbyTest(int domain = 83) : world_(domain, "simulators_awaited: 2", kConfig) {}
-
-  static constexpr char kConfig[] = "on_occupied: STAND_BY\nlease_s: 0.1\n";
-
-  std::unique_ptr<Process> StartStandby() const {
-    auto daemon = world_.LaunchDaemon();
-    EXPECT_TRUE(daemon->WaitForOutput("stands by")) << daemon->err();
-    return daemon;
+  void Start(const std::string& second_program = "collisiond") {
+    first_ = world_.StartDaemon();
+    second_ = world_.LaunchDaemon({}, second_program);
+    ASSERT_TRUE(second_->WaitForOutput("stands by")) << second_->err();
+    monitor_ = world_.StartMonitor({"events", "--follow"});
+    left_ = world_.StartSimulator(kLeft, kSlowly);
+    right_ = world_.StartSimulator(kRight, kSlowly);
   }
+
+  void AwaitEvent(const std::string& status) {
+    ASSERT_TRUE(monitor_->WaitForOutput(status)) << monitor_->err();
+  }
+
+  void ExpectTakeOver() { EXPECT_TRUE(second_->WaitForOutput("in term 2")) << second_->err(); }
 
   /// Both fly to their end, and the monitor is told of their contact once.
-  void ExpectOneContact(Process* left, Process* right, Process* monitor) const {
-    EXPECT_EQ(left->WaitForExit(), 0) << left->err();
-    EXPECT_EQ(right->WaitForExit(), 0) << right->err();
-    EXPECT_TRUE(monitor->WaitForOutput("ended")) << monitor->out();
-    EXPECT_EQ(Count(monitor->out(), "confirmed"), 1u) << monitor->out();
-    EXPECT_EQ(Count(monitor->out(), "ended"), 1u) << monitor->out();
+  void ExpectOneContact() {
+    EXPECT_EQ(left_->WaitForExit(), 0) << left_->err();
+    EXPECT_EQ(right_->WaitForExit(), 0) << right_->err();
+    EXPECT_TRUE(monitor_->WaitForOutput("ended")) << monitor_->out();
+    EXPECT_EQ(Count(monitor_->out(), "confirmed"), 1u) << monitor_->out();
+    EXPECT_EQ(Count(monitor_->out(), "ended"), 1u) << monitor_->out();
   }
 
-  const TestWorld world_;
+  const TestWorld world_{83, "simulators_awaited: 2", "on_occupied: STAND_BY\nlease_s: 0.1\n"};
+  std::unique_ptr<Process> first_, second_, monitor_, left_, right_;
 };
 
 TEST_F(StandbyTest, TakesOverFromOneThatIsKilled) {
-  const auto first = world_.StartDaemon();
-  const auto second = StartStandby();
-  const auto monitor = world_.StartMonitor({"events", "--follow"});
-  const auto left = world_.StartSimulator(kLeft, kSlowly);
-  const auto right = world_.StartSimulator(kRight, kSlowly);
-  ASSERT_TRUE(monitor->WaitForOutput("confirmed")) << monitor->err();
-  first->Signal(SIGKILL);
-  ExpectOneContact(left.get(), right.get(), monitor.get());
-  EXPECT_TRUE(second->WaitForOutput("in term 2")) << second->err();
+  ASSERT_NO_FATAL_FAILURE(Start());
+  ASSERT_NO_FATAL_FAILURE(AwaitEvent("confirmed"));
+  first_->Signal(SIGKILL);
+  ExpectOneContact();
+  ExpectTakeOver();
 }
 
 TEST_F(StandbyTest, OneThatStoodStillFindsItselfReplaced) {
-  const auto first = world_.StartDaemon();
-  const auto second = StartStandby();
-  const auto monitor = world_.StartMonitor({"events", "--follow"});
-  const auto left = world_.StartSimulator(kLeft, kSlowly);
-  const auto right = world_.StartSimulator(kRight, kSlowly);
-  ASSERT_TRUE(monitor->WaitForOutput("possible")) << monitor->err();
-  first->Signal(SIGSTOP);
-  EXPECT_TRUE(second->WaitForOutput("in term 2")) << second->err();
-  first->Signal(SIGCONT);
-  EXPECT_TRUE(first->WaitForOutput("goes before term 1: stands by")) << first->err();
+  ASSERT_NO_FATAL_FAILURE(Start());
+  ASSERT_NO_FATAL_FAILURE(AwaitEvent("possible"));
+  first_->Signal(SIGSTOP);
+  ExpectTakeOver();
+  first_->Signal(SIGCONT);
+  EXPECT_TRUE(first_->WaitForOutput("goes before term 1: stands by")) << first_->err();
   EXPECT_TRUE(world_.MonitorComesToSay({"status"}, "standby"));
-  ExpectOneContact(left.get(), right.get(), monitor.get());
+  ExpectOneContact();
 }
 
-// As an upgrade does it: the new version stands by, the old one is ended.
-TEST_F(StandbyTest, TakesOverFromOneThatIsEnded) {
-  const auto first = world_.StartDaemon();
-  const auto second = StartStandby();
-  const auto monitor = world_.StartMonitor({"events", "--follow"});
-  const auto left = world_.StartSimulator(kLeft, kSlowly);
-  const auto right = world_.StartSimulator(kRight, kSlowly);
-  ASSERT_TRUE(monitor->WaitForOutput("confirmed")) << monitor->err();
-  first->Signal(SIGTERM);
-  ExpectOneContact(left.get(), right.get(), monitor.get());
-  EXPECT_EQ(first->WaitForExit(), 0) << first->err();
-  EXPECT_TRUE(second->WaitForOutput("in term 2")) << second->err();
+TEST_F(StandbyTest, OneThatStoodStillItselfLeavesTheWorldToTheOther) {
+  ASSERT_NO_FATAL_FAILURE(Start());
+  ASSERT_NO_FATAL_FAILURE(AwaitEvent("possible"));
+  second_->Signal(SIGSTOP);
+  ASSERT_NO_FATAL_FAILURE(AwaitEvent("confirmed"));
+  second_->Signal(SIGCONT);
+  ExpectOneContact();
+  EXPECT_FALSE(Contains(second_->err(), "in term 2")) << second_->err();
+}
+
+TEST_F(StandbyTest, TakesOverFromAnOlderVersionThatIsEnded) {
+  ASSERT_NO_FATAL_FAILURE(Start("collisiond-next"));
+  ASSERT_NO_FATAL_FAILURE(AwaitEvent("confirmed"));
+  EXPECT_TRUE(Contains(world_.Monitor({"status", "--json"}).out, "\"version\":\"next\""))
+      << "the standby tells its version";
+  first_->Signal(SIGTERM);
+  ExpectTakeOver();
+  EXPECT_EQ(first_->WaitForExit(), 0) << first_->err();
+  const Outcome status = world_.Monitor({"status", "--json"});
+  EXPECT_TRUE(Contains(status.out, "\"version\":\"next\"")) << status.out;
+  EXPECT_TRUE(Contains(status.out, "PHASE_SERVING")) << status.out;
+  ExpectOneContact();
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/system/two_hosts.h"
+
 namespace collision::system_test {
 namespace {
 
@@ -79,20 +81,20 @@ void TestWorld::WriteConfig() {
                                    clock_ + " }\nstate_dir: \"" + state_folder_ + "\"\n" + more_);
 }
 
-void TestWorld::MoveTo(const TwoHosts& hosts, int host) {
-  hosts_ = &hosts;
-  host_ = host;
+void TestWorld::MoveTo(const std::string& network_namespace) {
+  network_namespace_ = network_namespace;
   // The cable is the only network there is: the profile needs no adapting to find it.
   variables_ = {"CYCLONEDDS_URI=file://" + ConfigFile("cyclonedds-lan.xml")};
 }
 
-std::vector<std::string> TestWorld::OnHost(std::vector<std::string> command) const {
-  return hosts_ ? hosts_->On(host_, std::move(command)) : command;
+std::vector<std::string> TestWorld::OnHost(const std::vector<std::string>& command) const {
+  return network_namespace_.empty() ? command : InNamespace(network_namespace_, command);
 }
 
-std::unique_ptr<Process> TestWorld::LaunchDaemon(const std::vector<std::string>& options) const {
+std::unique_ptr<Process> TestWorld::LaunchDaemon(const std::vector<std::string>& options,
+                                                 const std::string& program) const {
   return std::make_unique<Process>(
-      OnHost(Joined({Program("collisiond"), "--config", config_file_}, options)), variables_);
+      OnHost(Joined({Program(program), "--config", config_file_}, options)), variables_);
 }
 
 std::unique_ptr<Process> TestWorld::StartDaemon(const std::vector<std::string>& options) const {
@@ -110,8 +112,13 @@ std::unique_ptr<Process> TestWorld::StartSimulator(const Flight& flight,
   return StartPlayer(Joined(words, options));
 }
 
+std::unique_ptr<Process> TestWorld::StartProgram(const std::string& program,
+                                                 const std::vector<std::string>& words) const {
+  return std::make_unique<Process>(InWorld(program, words), variables_);
+}
+
 std::unique_ptr<Process> TestWorld::StartPlayer(const std::vector<std::string>& words) const {
-  return std::make_unique<Process>(InWorld("trajectory-player", words), variables_);
+  return StartProgram("trajectory-player", words);
 }
 
 std::unique_ptr<Process> TestWorld::StartHelper(const std::string& program,
@@ -121,7 +128,7 @@ std::unique_ptr<Process> TestWorld::StartHelper(const std::string& program,
 }
 
 std::unique_ptr<Process> TestWorld::StartMonitor(const std::vector<std::string>& words) const {
-  return std::make_unique<Process>(InWorld("collisionctl", words), variables_);
+  return StartProgram("collisionctl", words);
 }
 
 Outcome TestWorld::Monitor(const std::vector<std::string>& words) const {

@@ -8,7 +8,6 @@
 
 #include "tests/system/event_log.h"
 #include "tests/system/process.h"
-#include "tests/system/two_hosts.h"
 
 namespace collision::system_test {
 
@@ -67,16 +66,16 @@ class TestWorld {
   /// More fields of the configuration from here on.
   void Configure(const std::string& more);
 
-  /// From here on programs start on this host, with the profile for several hosts. `hosts` must
-  /// outlive them.
-  void MoveTo(const TwoHosts& hosts, int host);
+  /// From here on programs start in this network namespace, with the profile for several hosts.
+  void MoveTo(const std::string& network_namespace);
 
   const Folder& folder() const { return folder_; }
   const std::string& name() const { return name_; }
   std::uint32_t domain() const { return static_cast<std::uint32_t>(std::stoul(domain_)); }
 
-  /// Starts collisiond in this world.
-  std::unique_ptr<Process> LaunchDaemon(const std::vector<std::string>& options = {}) const;
+  /// Starts collisiond, or another build of it, in this world.
+  std::unique_ptr<Process> LaunchDaemon(const std::vector<std::string>& options = {},
+                                        const std::string& program = "collisiond") const;
 
   /// Likewise, and waits until it serves.
   std::unique_ptr<Process> StartDaemon(const std::vector<std::string>& options = {}) const;
@@ -85,7 +84,11 @@ class TestWorld {
   std::unique_ptr<Process> StartSimulator(const Flight& flight,
                                           const std::vector<std::string>& options = {}) const;
 
-  /// Starts a trajectory-player with these words, in this world.
+  /// Starts a simulator, one of our programs, with these words, in this world.
+  std::unique_ptr<Process> StartProgram(const std::string& program,
+                                        const std::vector<std::string>& words) const;
+
+  /// Likewise a trajectory-player.
   std::unique_ptr<Process> StartPlayer(const std::vector<std::string>& words) const;
 
   /// Starts a program of the tests; world and domain follow its words.
@@ -103,7 +106,7 @@ class TestWorld {
 
  private:
   void WriteConfig();
-  std::vector<std::string> OnHost(std::vector<std::string> command) const;
+  std::vector<std::string> OnHost(const std::vector<std::string>& command) const;
   std::vector<std::string> InWorld(const std::string& program,
                                    const std::vector<std::string>& words) const;
 
@@ -113,8 +116,7 @@ class TestWorld {
   std::string clock_, state_folder_, more_;
   std::string config_file_;
   std::vector<std::string> variables_;
-  const TwoHosts* hosts_ = nullptr;
-  int host_ = 0;
+  std::string network_namespace_;  ///< Empty: that of the test.
 };
 
 }  // namespace collision::system_test

@@ -4,7 +4,6 @@
 
 #include <sstream>
 #include <stdexcept>
-#include <utility>
 
 #include "tests/system/process.h"
 
@@ -59,10 +58,6 @@ TwoHosts::~TwoHosts() {
 
 void TwoHosts::Plug(bool in) const {
   Ip("-n " + names_[0] + (in ? " link set cable up" : " link set cable down"));
-}
-
-std::vector<std::string> TwoHosts::On(int host, std::vector<std::string> command) const {
-  return InNamespace(names_[host], std::move(command));
 }
 
 }  // namespace collision::system_test

@@ -26,8 +26,8 @@ class TwoHosts {
   TwoHosts& operator=(const TwoHosts&) = delete;
   ~TwoHosts();
 
-  /// The command, to be run on host 0 or 1.
-  std::vector<std::string> On(int host, std::vector<std::string> command) const;
+  /// The network namespace of host 0 or 1.
+  const std::string& host(int index) const { return names_[index]; }
 
   /// Pulls the cable out, or puts it back.
   void Plug(bool in) const;

@@ -13,10 +13,10 @@ namespace {
 TEST(TwoHosts, SimulatorsElsewhereCollideAllTheSame) {
   const TwoHosts hosts;
   TestWorld world(67);
-  world.MoveTo(hosts, 0);
+  world.MoveTo(hosts.host(0));
   const auto daemon = world.StartDaemon();
   const auto events = world.StartMonitor({"events", "--follow"});
-  world.MoveTo(hosts, 1);
+  world.MoveTo(hosts.host(1));
   const auto left = world.StartSimulator(kLeft);
   const auto right = world.StartSimulator(kRight);
   EXPECT_TRUE(events->WaitForOutput("ended")) << events->out() << daemon->err() << left->err();
@@ -27,10 +27,10 @@ TEST(TwoHosts, SimulatorsElsewhereCollideAllTheSame) {
 TEST(TwoHosts, AnUnpluggedCableEndsNoProgramAndLosesNoEvent) {
   const TwoHosts hosts;
   TestWorld world(68);
-  world.MoveTo(hosts, 0);
+  world.MoveTo(hosts.host(0));
   const auto daemon = world.StartDaemon();
   const auto events = world.StartMonitor({"events", "--follow"});
-  world.MoveTo(hosts, 1);
+  world.MoveTo(hosts.host(1));
   const auto left = world.StartSimulator(kLeft, {"--speed", "1"});
   const auto right = world.StartSimulator(kRight, {"--speed", "1"});
   ASSERT_TRUE(events->WaitForOutput("possible")) << events->out() << daemon->err() << left->err();

@@ -88,6 +88,7 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
       const v1::Rejection& rejection = output.rejection();
       if (rejection.simulator_id() != simulator_id_ || rejection.run() != run_) break;
       if (!IsForThis(rejection.incarnation())) break;
+      if (!Accept(rejection.stamp(), rejection.now_ns(), now)) break;
       if (rejection.reason() == v1::REJECTED_TOO_MANY_SIMULATORS) arrival_.HearOfNoRoom();
       if (rejections_.size() == kRejectionsMax) rejections_.pop_front();
       rejections_.push_back(FromMessage(rejection));

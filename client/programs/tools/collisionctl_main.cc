@@ -106,6 +106,8 @@ void Follow(MessageMonitor* monitor, WorldView* view, bool json) {
     const auto note = notes.Take(monitor->service_alive(), view->status());
     if (note) std::cerr << *note << '\n';
   }
+  PrintGap(monitor->contacts_missed(), &missed, json);
+  PrintNewEvents(view, &pending, json);
   std::cerr << ContactsSummary(view->contacts(), monitor->contacts_missed()) << '\n';
 }
 

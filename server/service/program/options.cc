@@ -72,7 +72,7 @@ void Define(CLI::App* app, Options* options) {
   auto* calibrate = app->add_flag(
       "--calibrate", options->calibrate,
       "Measure work_units_per_us on this machine, print the line for the configuration, and end");
-  app->set_version_flag("--version", std::string("collisiond ") + kVersion,
+  app->set_version_flag("--version", std::string("collisiond ") + Version(),
                         "Print the version and end");
   auto* domain =
       app->add_option("--domain", options->domain, "DDS domain, instead of the configured one")

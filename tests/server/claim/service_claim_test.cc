@@ -137,6 +137,26 @@ TEST(ServiceClaim, OneThatStoodStillListensFirstAndYieldsToOneSample) {
   EXPECT_EQ(beside.phase(), ClaimPhase::kStandby);
 }
 
+TEST(ServiceClaim, AStandbyThatStoodStillListensBeforeItTakesOver) {
+  ServiceClaim claim = StandingBy(5);
+  EXPECT_TRUE(claim.NeedsWakeUp());
+  // While it heard nothing, the lease of the other one seems to have ended.
+  claim.WakeUp(9 * kSecond);
+  claim.HearEnd(1);
+  claim.Update(9 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kStandby);
+  EXPECT_EQ(claim.NextDue(), 9 * kSecond + kSecond / 10);
+  ServiceClaim alone = claim;
+  alone.Update(9 * kSecond + kSecond / 10);
+  EXPECT_EQ(alone.phase(), ClaimPhase::kServing) << "the other one has really ended";
+  claim.Hear(Heard(1, OtherPhase::kServing, 3, 1), 9 * kSecond + 1);
+  claim.Update(20 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kStandby) << "the other one is back, with its last status";
+  claim.HearEnd(1);
+  claim.Update(20 * kSecond + 1);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing) << "it has listened long ago";
+}
+
 TEST(ServiceClaim, ItsOwnStatusIsNoOtherService) {
   ServiceClaim claim(Options(5));
   claim.Update(0);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -17,7 +18,7 @@
 namespace collision::suite {
 namespace {
 
-constexpr int kBroken = 1, kNothingToRun = 2;
+constexpr int kBroken = 1, kNothingToRun = 2, kSkipped = 77;
 constexpr int kTimesMax = 100;
 
 struct Options {
@@ -44,7 +45,11 @@ std::vector<Case> Chosen(const Suite& suite, const std::string& only) {
 Row Run(const Case& what, const Setting& setting) {
   Row row{what, {}, 0};
   const bench::CpuStopwatch watch;
-  what.run(setting, &row.outcome);
+  try {
+    what.run(setting, &row.outcome);
+  } catch (const std::exception& error) {
+    row.outcome.Expect(false, error.what());
+  }
   row.seconds = watch.seconds();
   return row;
 }
@@ -146,6 +151,11 @@ int RunAll(const Suite& suite, const Options& options) {
     std::fprintf(stderr, "--only: no case's name contains \"%s\"; see --list\n",
                  options.only.c_str());
     return kNothingToRun;
+  }
+  const std::string obstacle = suite.obstacle == nullptr ? "" : suite.obstacle();
+  if (!obstacle.empty()) {
+    std::fprintf(stderr, "skipped: %s\n", obstacle.c_str());
+    return kSkipped;
   }
   std::vector<Row> rows;
   for (const Case& one : chosen) {

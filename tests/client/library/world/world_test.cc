@@ -388,6 +388,23 @@ TEST_F(WorldTest, RefusalsOfThisRunAreKeptUpToABound) {
   EXPECT_TRUE(world.TakeRejections().empty());
 }
 
+TEST_F(WorldTest, RefusalsOfAServiceThatHasBeenReplacedDoNotCount) {
+  World world = ConnectTo(network_);
+  network_->Grant(10, 2);
+  for (const std::uint32_t term : {1, 2}) {
+    v1::Rejection* rejection = network_->arriving.emplace_back().mutable_rejection();
+    rejection->mutable_stamp()->set_service_id(term);
+    rejection->mutable_stamp()->set_term(term);
+    rejection->set_simulator_id(SimulatorId(kSimulator));
+    rejection->set_run(kRun);
+    rejection->set_count(term);
+  }
+  world.Poll();
+  const auto rejections = world.TakeRejections();
+  ASSERT_EQ(rejections.size(), 1u);
+  EXPECT_EQ(rejections.front().count, 2u);
+}
+
 TEST_F(WorldTest, WaitsForAServiceUntilItIsAliveOrTheTimeoutIsOver) {
   World world = ConnectTo(network_);
   EXPECT_FALSE(world.WaitForService(nanoseconds(0)));
