@@ -20,14 +20,18 @@ constexpr std::uint32_t kContactWeight = 2;
 constexpr std::uint64_t kClaimMore = 16;
 constexpr std::uint64_t kClaimAll = 4;
 
+// Work is plentiful again once a step has spent less than this part of its budget.
+constexpr std::uint64_t kPlenty = 2;
+
 // When a contact is confirmed this part of an evaluation's work is allowed for its proximity,
 // beside what the evaluation took.
 constexpr std::uint64_t kProximityShare = 8;
 
-// What a turn costs of a step's work, in units. Two shapes get as much as their last evaluation
-// took, within these bounds: enough to tell something, and so little that a step has several turns.
+// What a turn costs of a step's work, in units. Two shapes cost as much as their last evaluation
+// took, within these bounds, so that a step has several turns; at first, enough to tell something.
 // Two balls cost this much for each state that is new to them.
-constexpr std::uint64_t kShapesTurnMin = 1000;
+constexpr std::uint64_t kShapesFirstTurn = 1000;
+constexpr std::uint64_t kShapesTurnMin = 100;
 constexpr std::uint64_t kTurnsPerStep = 16;
 constexpr std::uint64_t kBallsTurn = 20;
 
@@ -117,6 +121,8 @@ void TrackedPairs::EvaluateDuePairs() {
     for (const PairTurn& turn : turns) claims.push_back({ClaimOf(turn), turn.payer});
     budget_.Start(claims);
   }
+  held_ = false;
+  const std::uint64_t at_start = context_.counters->work_units;
   // Pairs by slot, which is the order of events.
   auto postponed = unannounced.begin();
   for (const PairTurn& turn : turns) {
@@ -132,6 +138,7 @@ void TrackedPairs::EvaluateDuePairs() {
     context_.clock.MadeProgress();
   }
   for (; postponed != unannounced.end(); ++postponed) Announce(*postponed);
+  scarce_ = held_ && context_.counters->work_units - at_start > budget_.per_step() / kPlenty;
 }
 
 // All pairs of changed agents, and those that are due.
@@ -205,14 +212,17 @@ std::uint64_t TrackedPairs::TurnCostOf(PairSlot slot) const {
   }
   const std::uint64_t most =
       std::min(budget_.per_step() / kTurnsPerStep, options_.work_units_per_evaluation);
-  return std::max(kShapesTurnMin, pair.evaluated_step == 0 ? 0 : std::min(pair.spent, most));
+  if (pair.evaluated_step == 0) return kShapesFirstTurn;
+  return std::max(kShapesTurnMin, std::min(pair.spent, most));
 }
 
-// While no pair waits each claims no more than it is expected to spend, so that all that is left is
-// there for those that need more, and a budget that is not used up limits none.
+// While work is plentiful each pair claims no more than it is expected to spend. All that is left is
+// there for those that need more, and a budget that is not used up limits none. Once work is scarce
+// the first ones would use up what is left: then each pair claims what it may need, and is sure of
+// its share.
 WorkClaim TrackedPairs::ClaimOf(const PairTurn& turn) const {
   WorkClaim claim = ClaimOf(turn.slot);
-  if (owners_.waiting() == 0) claim.wanted = std::min(claim.wanted, turn.cost);
+  if (owners_.waiting() == 0 && !scarce_) claim.wanted = std::min(claim.wanted, turn.cost);
   return claim;
 }
 
@@ -236,6 +246,7 @@ void TrackedPairs::Evaluate(PairSlot slot, std::uint64_t allowed, Finality final
   if (!queries_.MayMeet(pair.lower, pair.higher)) return Drop(slot, Departure::kUnwatched);
   // One budget for all horizons, what is settled first.
   const bool held = allowed < ClaimOf(slot).wanted;
+  held_ = held_ || held;
   WorkBudget work(allowed, held ? WhenExhausted::kLeaveUndecided : WhenExhausted::kQueryOnce);
   const ContactTracker preview = evaluator_.Evaluate({a, b, pair}, finality, &work);
   pair.published.work += work.spent();

@@ -122,6 +122,8 @@ class TrackedPairs {
   PairEvaluator evaluator_;
   StepBudget budget_;
   OwnerQueues owners_;
+  bool held_ = false;    // a pair could get less than it may need, in this step
+  bool scarce_ = false;  // the last step's budget was used up, or nearly
   std::map<OwnerId, std::uint64_t> last_units_;  // of last evaluations in this step
   std::vector<Retraction> retracted_;            // since the last step
   std::vector<PairSlot> queued_;                 // that began to wait or became due in this step
