@@ -216,10 +216,10 @@ std::uint64_t TrackedPairs::TurnCostOf(PairSlot slot) const {
   return std::max(kShapesTurnMin, std::min(pair.spent, most));
 }
 
-// While work is plentiful each pair claims no more than it is expected to spend. All that is left is
-// there for those that need more, and a budget that is not used up limits none. Once work is scarce
-// the first ones would use up what is left: then each pair claims what it may need, and is sure of
-// its share.
+// While work is plentiful each pair claims no more than it is expected to spend. All that is left
+// is there for those that need more, and a budget that is not used up limits none. Once work is
+// scarce the first ones would use up what is left: then each pair claims what it may need, and is
+// sure of its share.
 WorkClaim TrackedPairs::ClaimOf(const PairTurn& turn) const {
   WorkClaim claim = ClaimOf(turn.slot);
   if (owners_.waiting() == 0 && !scarce_) claim.wanted = std::min(claim.wanted, turn.cost);
