@@ -25,7 +25,8 @@ class Bus {
 
   virtual void Publish(const v1::Output& output) = 0;
 
-  /// Sends everything published so far. Called at the end of each step.
+  /// Sends everything published so far. Called at the end of each step, and with a wall clock also
+  /// after the events of the step.
   virtual void Flush() = 0;
 
   /// If this process stands still for longer than `standstill` between Receive() and what it

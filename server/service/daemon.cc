@@ -153,7 +153,8 @@ class Daemon::Implementation {
     if (const auto next = reports_.next_ns(); next && serves) due = std::min(due, *next);
     std::int64_t wait = due - world_.monotonic_ns();
     if (!world_.simulated()) {
-      wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()));
+      const int slices = detector_.pairs_waiting() > 0 ? kSlicesPerResolution : 1;
+      wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()) / slices);
     }
     // It must know that it has stood still for half a lease.
     if (claim_.HasStandby()) wait = std::min(wait, Standstill() / 2);

@@ -69,7 +69,7 @@ TrackedPairs::TrackedPairs(const DetectorOptions& options, const DetectorContext
       table_(options.pairs_max, options.pairs_per_agent_max),
       evaluator_(context),
       budget_(options.work_units_per_evaluation, options.work_units_per_step),
-      owners_(options.temporal_resolution),
+      owners_(options.temporal_resolution, options.work_units_per_slice),
       announcer_(options, context.counters) {}
 
 void TrackedPairs::AddAgent(AgentIndex agent) {
@@ -125,7 +125,9 @@ void TrackedPairs::EvaluateDuePairs() {
   const std::vector<PairSlot> unannounced = RetractPostponed();
   if (limited) {
     std::vector<PairClaim> claims;
-    for (const PairTurn& turn : turns) claims.push_back({ClaimOf(turn), turn.payer});
+    for (const PairTurn& turn : turns) {
+      claims.push_back({ClaimOf(turn), turn.payer, turn.payer_units});
+    }
     budget_.Start(claims);
   }
   held_ = false;
