@@ -230,7 +230,8 @@ void Detector::Implementation::ForgetPast() {
   const Instant late = numeric::AddRoundedDown(clock_.now, -kLateness * clock_.announce_within);
   const Instant since = std::max(late, std::min(clock_.now, agents_.extremes().oldest));
   clearances_.ForgetBefore(numeric::AddRoundedDown(since, -agents_.skew()));
-  agents_.EndStep([&](AgentIndex agent) { return pairs_.NeededFrom(agent, since); });
+  agents_.EndStep(
+      [&](AgentIndex agent) { return std::min(since, pairs_.ExtremesOf(agent).needed_from); });
 }
 
 std::optional<AgentClearance> Detector::Implementation::ClearanceOf(const AgentId& id) const {

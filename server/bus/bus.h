@@ -28,7 +28,8 @@ class Bus {
   /// This simulator is not there any more, nor will what was published to it be asked for.
   virtual void Forget(std::uint64_t simulator_id) { static_cast<void>(simulator_id); }
 
-  /// Sends everything published so far. Called at the end of each step.
+  /// Sends everything published so far. Called at the end of each step, and with a wall clock also
+  /// after the events of the step.
   virtual void Flush() = 0;
 
   /// If this process stands still for longer than `standstill` between Receive() and what it

@@ -110,6 +110,7 @@ std::vector<Telling> Publisher::Filter(const std::vector<detection::CollisionEve
 void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events,
                               const World& world) {
   for (const Telling& telling : Filter(events, world)) Publish(telling, world);
+  if (!world.simulated()) bus_.Flush();
 }
 
 void Publisher::NoteEvents(const std::vector<detection::CollisionEvent>& events,

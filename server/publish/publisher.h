@@ -36,7 +36,8 @@ class Publisher {
 
   /// Publishes what is new to readers (EventFilter). Contacts are numbered from 1, and leave before
   /// the clearances of the same step, which name the last one: a simulator that is granted time
-  /// hears first whom it has met.
+  /// hears first whom it has met. With a wall clock they are sent at once, before the clearances of
+  /// all agents are written.
   void PublishEvents(const std::vector<detection::CollisionEvent>& events, const World& world);
 
   /// A standby: takes note of what it would publish, and of what the service in force does.

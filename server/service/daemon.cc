@@ -154,7 +154,8 @@ class Daemon::Implementation {
     if (const auto next = reports_.next_ns(); next && serves) due = std::min(due, *next);
     std::int64_t wait = due - world_.monotonic_ns();
     if (!world_.simulated()) {
-      wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()));
+      const int slices = detector_.pairs_waiting() > 0 ? kSlicesPerResolution : 1;
+      wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()) / slices);
     }
     if (claim_.NeedsWakeUp()) wait = std::min(wait, Standstill() / 2);
     return std::chrono::nanoseconds(std::max<std::int64_t>(wait, 0));

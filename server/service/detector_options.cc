@@ -1,5 +1,7 @@
 #include "server/service/detector_options.h"
 
+#include <algorithm>
+
 #include "server/config/config.h"
 
 namespace collision::server {
@@ -20,6 +22,8 @@ broad_phase::BroadPhaseMethod MethodOf(v1::Config::BroadPhase method) {
 }  // namespace
 
 detection::DetectorOptions DetectorOptionsOf(const v1::Config& config) {
+  const std::uint64_t per_step = WorkUnitsPerStep(config);
+  const bool sliced = config.clock().kind() == v1::Clock::WALL && per_step > 0;
   return {.temporal_resolution = config.temporal_resolution_s(),
           .announce_within = config.announce_within_s(),
           .skew = config.clock().skew_max_s(),
@@ -28,7 +32,9 @@ detection::DetectorOptions DetectorOptionsOf(const v1::Config& config) {
           .pairs_per_agent_max = config.pairs_per_agent_max(),
           .history_max = config.history_max(),
           .work_units_per_evaluation = WorkUnitsPerEvaluation(config),
-          .work_units_per_step = WorkUnitsPerStep(config),
+          .work_units_per_step = per_step,
+          .work_units_per_slice =
+              sliced ? std::max<std::uint64_t>(1, per_step / kSlicesPerResolution) : 0,
           .broad_phase = MethodOf(config.broad_phase())};
 }
 

@@ -96,6 +96,12 @@ void OwnerQueues::GrowCredit(double units, double owners, Instant now, Queue* ow
   owner->credited_at = now;
 }
 
+bool OwnerQueues::GivesWay(const Queue& owner, std::uint64_t units, Instant now) const {
+  if (!IsHeld(owner) || owner.sliced_at == Instant::Always()) return false;
+  const double slices = static_cast<double>(units) / static_cast<double>(slice_);
+  return numeric::SecondsBetween(owner.sliced_at, now).upper < 2 * temporal_resolution_ / slices;
+}
+
 std::vector<PairTurn> OwnerQueues::Take(std::uint64_t units,
                                         const std::function<std::uint64_t(PairSlot)>& cost,
                                         Instant now) {
@@ -104,9 +110,12 @@ std::vector<PairTurn> OwnerQueues::Take(std::uint64_t units,
   for (auto at = next; at != waiting_owners_.end(); ++at) owners.push_back(at->second);
   for (auto at = waiting_owners_.begin(); at != next; ++at) owners.push_back(at->second);
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
+  const bool others = std::any_of(owners.begin(), owners.end(),
+                                  [this](const Queue* owner) { return !IsHeld(*owner); });
   for (std::size_t i = 0; i < owners.size(); ++i) {
     GrowCredit(static_cast<double>(units), static_cast<double>(owners.size()), now, owners[i]);
-    if (owners[i]->credit >= 0) candidates.push({0, i});
+    const bool passes = others && GivesWay(*owners[i], units, now);
+    if (owners[i]->credit >= 0 && !passes) candidates.push({0, i});
   }
   const auto sharing = static_cast<std::uint32_t>(owners.size());
 
@@ -120,11 +129,15 @@ std::vector<PairTurn> OwnerQueues::Take(std::uint64_t units,
     const std::uint64_t takes = cost(slot);
     if (!turns.empty() && takes > left) break;
     left -= std::min(left, takes);
-    turns.push_back({slot, owner.work.owner, takes});
+    const bool held = IsHeld(owner);
+    const std::uint64_t most = held ? std::min(slice_, units) : units;
+    if (held) owner.sliced_at = now;
+    turns.push_back({slot, owner.work.owner, takes, most});
     owner.credit -= static_cast<double>(takes);
     last_turn_ = owner.work.owner;
     Unlink(slot);
-    if (owner.work.waiting > 0 && owner.credit >= 0) candidates.push({taken + takes, order});
+    const bool has_more = owner.work.waiting > 0 && owner.credit >= 0;
+    if (has_more && (!held || taken + takes < most)) candidates.push({taken + takes, order});
   }
   for (const auto& [id, owner] : waiting_owners_) {
     owner->work.held_since = std::min(owner->work.held_since, now);

@@ -16,6 +16,8 @@ struct PairTurn {
   PairSlot slot;
   OwnerId payer;
   std::uint64_t cost = 0;  ///< As it was expected.
+  /// What all pairs of the payer together may spend in this step.
+  std::uint64_t payer_units = 0;
 
   friend auto operator<=>(const PairTurn&, const PairTurn&) = default;
 };
@@ -31,14 +33,20 @@ struct PairTurn {
 /// served in whatever step it wants something, and one that always wants more than its share gets
 /// that and no more, however fast steps follow each other.
 ///
+/// An owner of which some pairs have waited since an earlier step is *held*. It spends no more than
+/// a slice in one step, and gives way to the others: in a step in which another owner's pairs want
+/// their turn it has none, unless its last slice lies back by twice the time in which it may have
+/// one.
+///
 /// Of the two owners of a pair the one with more tracked pairs pays, or the one with the lower id:
 /// a simulator that puts many agents in the way of another one's pays for all these pairs itself.
 ///
 /// Single-threaded and deterministic. All operations are O(log owners), but for Take().
 class OwnerQueues {
  public:
-  /// Δt [s].
-  explicit OwnerQueues(double temporal_resolution) : temporal_resolution_(temporal_resolution) {}
+  /// Δt [s], and the units of a slice; 0: slices are not limited.
+  explicit OwnerQueues(double temporal_resolution, std::uint64_t slice = 0)
+      : temporal_resolution_(temporal_resolution), slice_(slice) {}
 
   /// A pair of agents of these owners is tracked from now on, or no longer. Requires that the slot
   /// is free, or taken.
@@ -74,6 +82,7 @@ class OwnerQueues {
     std::uint32_t pairs = 0;  // tracked, of any payer
     double credit = 0;        // [units]; < 0: debt
     Instant credited_at = Instant::Always();
+    Instant sliced_at = Instant::Always();  // its last turn while it was held
     PairSlot first = PairSlot::None(), last = PairSlot::None();
   };
   /// A tracked pair; linked into the queue of its payer while it waits.
@@ -85,11 +94,14 @@ class OwnerQueues {
   };
 
   Queue* PayerOf(const Entry& entry) const;
+  bool IsHeld(const Queue& owner) const { return slice_ > 0 && !owner.work.held_since.is_never(); }
+  bool GivesWay(const Queue& owner, std::uint64_t units, Instant now) const;
   void GrowCredit(double units, double owners, Instant now, Queue* owner) const;
   void Unlink(PairSlot slot);
   void Leave(Queue* owner);
 
   const double temporal_resolution_;
+  const std::uint64_t slice_;
   std::map<OwnerId, Queue> owners_;           // with at least one tracked pair
   std::map<OwnerId, Queue*> waiting_owners_;  // with at least one waiting pair
   IndexedVector<PairSlot, Entry> entries_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "collision_core/base/free_list.h"
 
@@ -10,6 +11,7 @@ namespace collision::detection {
 void PairTable::AddAgent(AgentIndex agent, const OwnerId& owner) {
   if (!of_agent_.contains(agent)) {
     of_agent_.resize(agent.value() + 1);
+    idle_of_agent_.resize(agent.value() + 1);
     full_.resize(agent.value() + 1);
     owner_of_.resize(agent.value() + 1);
   }
@@ -55,6 +57,7 @@ PairSlot PairTable::Add(const PairRecord& pair) {
     of_agent_[agent].push_back(slot);
     UpdateFull(agent);
   }
+  SetIdle(slot);
   return slot;
 }
 
@@ -62,12 +65,27 @@ void PairTable::Remove(PairSlot slot) {
   const PairRecord& pair = (*this)[slot];
   for (const AgentIndex agent : {pair.lower, pair.higher}) {
     std::erase(of_agent_[agent], slot);
+    std::erase(idle_of_agent_[agent], slot);
     UpdateFull(agent);
   }
   ForEachOwner(pair, [this](Owner* owner) { owners_.GiveBack(owner, 1); });
   pairs_[slot].reset();
   free_.push_back(slot);
   --size_;
+}
+
+void PairTable::SetIdle(PairSlot slot) {
+  PairRecord& pair = (*this)[slot];
+  for (const AgentIndex agent : {pair.lower, pair.higher}) {
+    if (std::exchange(IsListedIdle(agent, &pair), true)) continue;
+    idle_of_agent_[agent].push_back(slot);
+  }
+}
+
+std::vector<PairSlot> PairTable::TakeIdle(AgentIndex agent) {
+  std::vector<PairSlot> idle = std::exchange(idle_of_agent_.at(agent), {});
+  for (const PairSlot slot : idle) IsListedIdle(agent, &(*this)[slot]) = false;
+  return idle;
 }
 
 std::size_t PairTable::RoomFor(AgentIndex agent) const {
@@ -85,6 +103,13 @@ void PairTable::ValidateAgent(AgentIndex agent) const {
              agent.value());
   CORE_CHECK(full_[agent] == (Of(agent).size() >= pairs_per_agent_max_),
              "an agent that has no room is marked", agent.value());
+  const std::vector<PairSlot>& idle = idle_of_agent_.at(agent);
+  for (const PairSlot slot : Of(agent)) {
+    PairRecord pair = (*this)[slot];
+    const auto count = std::count(idle.begin(), idle.end(), slot);
+    CORE_CHECK(count == IsListedIdle(agent, &pair), "an idle pair is listed once", slot.value(),
+               count);
+  }
   std::vector<AgentIndex> partners;
   for (const PairSlot slot : Of(agent)) partners.push_back((*this)[slot].PartnerOf(agent));
   std::sort(partners.begin(), partners.end());

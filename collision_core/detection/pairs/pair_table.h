@@ -44,13 +44,17 @@ struct PairRecord {
   /// Work units of the last evaluation; kAllWanted: the budget was not enough.
   std::uint64_t spent = kAllWanted;
   PublishedEvent published{};
+  bool idle_with_lower = false, idle_with_higher = false;  ///< For PairTable::TakeIdle().
 
   AgentIndex PartnerOf(AgentIndex agent) const { return agent == lower ? higher : lower; }
 };
 
-/// Holds tracked pairs by slot, and each agent's slots. Slots are reused in the order in which they
-/// were freed, and only after others have been freed since, so that a slot's last sample on the
-/// wire stays readable for a while. Add() and Remove() are O(pairs of the two agents).
+/// Holds tracked pairs by slot, each agent's slots, and which of these are idle: they wait for no
+/// evaluation. An agent that changes need not look at the others.
+///
+/// Slots are reused in the order in which they were freed, and only after others have been freed
+/// since, so that a slot's last sample on the wire stays readable for a while. Add() and Remove()
+/// are O(pairs of the two agents).
 class PairTable {
  public:
   /// Freed slots that rest before one of them is reused.
@@ -90,6 +94,12 @@ class PairTable {
   /// The agent's tracked pairs. Requires AddAgent(agent).
   const std::vector<PairSlot>& Of(AgentIndex agent) const { return of_agent_.at(agent); }
 
+  /// The pair is idle, as each new one is. Requires Contains(slot). O(1).
+  void SetIdle(PairSlot slot);
+  /// Of the agent's pairs all that are idle: those set so since the last call for this agent. Some
+  /// may have been taken with their other agent meanwhile. Requires AddAgent(agent).
+  std::vector<PairSlot> TakeIdle(AgentIndex agent);
+
   /// Pairs that can still be added: in all, and with this agent. Requires AddAgent(agent).
   std::size_t room() const { return pairs_max_ - size_; }
   std::size_t RoomFor(AgentIndex agent) const;
@@ -111,6 +121,9 @@ class PairTable {
   }
   template <typename Visitor>
   void ForEachOwner(const PairRecord& pair, const Visitor& visit) const;
+  static bool& IsListedIdle(AgentIndex agent, PairRecord* pair) {
+    return agent == pair->lower ? pair->idle_with_lower : pair->idle_with_higher;
+  }
   void ValidateAgent(AgentIndex agent) const;
 
   const std::uint32_t pairs_max_;
@@ -119,6 +132,7 @@ class PairTable {
   std::size_t size_ = 0;
   std::deque<PairSlot> free_;
   IndexedVector<AgentIndex, std::vector<PairSlot>> of_agent_;
+  IndexedVector<AgentIndex, std::vector<PairSlot>> idle_of_agent_;
   IndexedVector<AgentIndex, std::uint8_t> full_;  // as many pairs as the agent may have
   SharedLimit<OwnerId> owners_;                   // present as often as an owner has agents
   IndexedVector<AgentIndex, Owner*> owner_of_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "collision_core/base/check.h"
 
@@ -14,13 +13,16 @@ void StepBudget::Start(const std::vector<PairClaim>& claims) {
   claims_ = claims;
   next_ = 0;
   given_.assign(claims.size(), 0);
+  pool_.assign(claims.size(), 0);
+  left_ = {total};
   std::map<OwnerId, std::vector<std::size_t>> pairs_of;
   for (std::size_t i = 0; i < claims.size(); ++i) pairs_of[claims[i].payer].push_back(i);
   std::vector<WorkClaim> of_owners;
   for (const auto& [owner, pairs] : pairs_of) {
+    const std::uint64_t most = std::min(total, claims[pairs.front()].payer_max);
     WorkClaim& claim = of_owners.emplace_back();
     for (const std::size_t i : pairs) {
-      claim.wanted = std::min(total, claim.wanted + std::min(total, claims[i].work.wanted));
+      claim.wanted = std::min(most, claim.wanted + std::min(most, claims[i].work.wanted));
     }
   }
   const std::vector<std::uint64_t> owner_shares = shares_.Of(of_owners, total);
@@ -28,21 +30,28 @@ void StepBudget::Start(const std::vector<PairClaim>& claims) {
   for (const auto& [owner, pairs] : pairs_of) {
     std::vector<WorkClaim> of_pairs;
     for (const std::size_t i : pairs) of_pairs.push_back(claims[i].work);
+    const bool limited = claims[pairs.front()].payer_max < total;
+    if (limited) left_.push_back(0);
     const std::vector<std::uint64_t>& given = shares_.Of(of_pairs, *share++);
-    for (std::size_t k = 0; k < pairs.size(); ++k) given_[pairs[k]] = given[k];
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      given_[pairs[k]] = given[k];
+      left_.front() -= given[k];
+      if (limited) pool_[pairs[k]] = left_.size() - 1;
+    }
   }
-  left_ = total - std::accumulate(given_.begin(), given_.end(), std::uint64_t{0});
 }
 
 std::uint64_t StepBudget::Allowed() {
   CORE_CHECK(next_ < claims_.size(), "each evaluation has a claim", next_, claims_.size());
   if (claims_nothing()) return per_evaluation_;
-  left_ += given_[next_];
-  return std::min(per_evaluation_, left_);
+  std::uint64_t& left = left_[pool_[next_]];
+  left += given_[next_];
+  return std::min(per_evaluation_, left);
 }
 
 void StepBudget::Spent(std::uint64_t units) {
-  if (!claims_nothing()) left_ -= std::min(left_, units);
+  std::uint64_t& left = left_[pool_[next_]];
+  if (!claims_nothing()) left -= std::min(left, units);
   ++next_;
 }
 

@@ -13,14 +13,18 @@ namespace collision::detection {
 struct PairClaim {
   WorkClaim work;
   OwnerId payer{};
+  /// What all claims of the payer together may get; the same in each of them.
+  std::uint64_t payer_max = WorkShares::kTotalMax;
 };
 
 /// Shares out `work_units_per_step` before the first evaluation of a step: first among the owners,
 /// each with the same weight, then the share of each among the pairs that it pays for. What nobody
-/// claims, and what one pair does not use of its share, is there for the next. A pair that claims
-/// nothing (two balls, which cost next to nothing) has no share and no limit but that of one
-/// evaluation. An evaluation finishes the step that it has begun, so it may overrun its allowance a
-/// little (work_budget.h).
+/// claims, and what one pair does not use of its share, is there for the next; but what a pair of a
+/// limited payer leaves is there for the payer's own pairs only.
+///
+/// A pair that claims nothing (two balls, which cost next to nothing) has no share and no limit but
+/// that of one evaluation. An evaluation finishes the step that it has begun, so it may overrun its
+/// allowance a little (work_budget.h).
 class StepBudget {
  public:
   /// Units for one evaluation, and for a whole step (0: no limit).
@@ -46,8 +50,11 @@ class StepBudget {
   WorkShares shares_;
   std::vector<PairClaim> claims_;
   std::vector<std::uint64_t> given_;  // by claim
+  std::vector<std::size_t> pool_;     // by claim
   std::size_t next_ = 0;
-  std::uint64_t left_ = 0;  // of what was not claimed, and of the shares of all pairs so far
+  /// Of the shares of all pairs so far: first, with what was not claimed, of all payers that are
+  /// not limited; then of each that is.
+  std::vector<std::uint64_t> left_;
 };
 
 }  // namespace collision::detection

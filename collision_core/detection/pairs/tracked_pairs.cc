@@ -69,8 +69,13 @@ TrackedPairs::TrackedPairs(const DetectorOptions& options, const DetectorContext
       table_(options.pairs_max, options.pairs_per_agent_max),
       evaluator_(context),
       budget_(options.work_units_per_evaluation, options.work_units_per_step),
-      owners_(options.temporal_resolution),
+      owners_(options.temporal_resolution, options.work_units_per_slice),
       announcer_(options, context.counters) {}
+
+void TrackedPairs::AddAgent(AgentIndex agent) {
+  table_.AddAgent(agent, OwnerOf(context_.agents[agent].id));
+  extremes_.AddAgent(agent);
+}
 
 void TrackedPairs::ForgetAgent(AgentIndex agent) {
   table_.RemoveAgent(agent);
@@ -93,7 +98,9 @@ bool TrackedPairs::Track(AgentIndex a, AgentIndex b, Instant free_until, Past pa
 
 void TrackedPairs::RetractFree(AgentIndex agent, Instant from) {
   for (const PairSlot slot : table_.Of(agent)) {
-    table_[slot].tracker.RetractFree(from, Past::kKnown);
+    PairRecord& pair = table_[slot];
+    pair.tracker.RetractFree(from, Past::kKnown);
+    extremes_.Set(slot, pair.lower, pair.higher, ExtremesOf(pair));
     retracted_.push_back({slot, from});
   }
 }
@@ -118,7 +125,9 @@ void TrackedPairs::EvaluateDuePairs() {
   const std::vector<PairSlot> unannounced = RetractPostponed();
   if (limited) {
     std::vector<PairClaim> claims;
-    for (const PairTurn& turn : turns) claims.push_back({ClaimOf(turn), turn.payer});
+    for (const PairTurn& turn : turns) {
+      claims.push_back({ClaimOf(turn), turn.payer, turn.payer_units});
+    }
     budget_.Start(claims);
   }
   held_ = false;
@@ -129,6 +138,7 @@ void TrackedPairs::EvaluateDuePairs() {
     for (; postponed != unannounced.end() && *postponed < turn.slot; ++postponed) {
       Announce(*postponed);
     }
+    table_.SetIdle(turn.slot);
     const std::uint64_t before = context_.counters->work_units;
     Evaluate(turn.slot, limited ? budget_.Allowed() : options_.work_units_per_evaluation,
              Finality::kOngoing);
@@ -141,12 +151,12 @@ void TrackedPairs::EvaluateDuePairs() {
   scarce_ = held_ && context_.counters->work_units - at_start > budget_.per_step() / kPlenty;
 }
 
-// All pairs of changed agents, and those that are due.
+// All pairs of changed agents, and those that are due. Pairs that are not idle wait already.
 void TrackedPairs::QueueDuePairs() {
   queued_.clear();
   for (const AgentIndex agent : context_.agents.changed()) {
     if (!context_.agents.Contains(agent)) continue;
-    for (const PairSlot slot : table_.Of(agent)) {
+    for (const PairSlot slot : table_.TakeIdle(agent)) {
       if (owners_.Wait(slot)) queued_.push_back(slot);
     }
   }
@@ -263,8 +273,8 @@ void TrackedPairs::Evaluate(PairSlot slot, std::uint64_t allowed, Finality final
                                                                 evaluator_.LongestWaitFor(b)));
   pair.unsettled_until = heard.empty() ? Instant::Always() : heard.back().end.latest;
   pair.evaluated_step = context_.clock.step;
-  MarkChanged(slot);
   const PairInterest interest = Report(slot, preview, allowed, finality);
+  MarkChanged(slot);
   if (interest == PairInterest::kFarApart && Release(slot)) return;
   if (pair.in_contact) pair.rests_until = RestsUntil(slot, preview);
   SetDue(slot);
@@ -350,26 +360,30 @@ void TrackedPairs::Drop(PairSlot slot, Departure departure) {
 
 void TrackedPairs::Remove(PairSlot slot) {
   MarkChanged(slot);
+  extremes_.Set(slot, table_[slot].lower, table_[slot].higher, PairExtremes());
   due_.Remove(slot);
   owners_.RemovePair(slot);
   table_.Remove(slot);
 }
 
+// After the change.
 void TrackedPairs::MarkChanged(PairSlot slot) {
+  const PairRecord& pair = table_[slot];
   changed_.Insert(slot);
-  context_.clearances_dirty->Insert(table_[slot].lower);
-  context_.clearances_dirty->Insert(table_[slot].higher);
+  extremes_.Set(slot, pair.lower, pair.higher, ExtremesOf(pair));
+  context_.clearances_dirty->Insert(pair.lower);
+  context_.clearances_dirty->Insert(pair.higher);
+}
+
+PairExtremes TrackedPairs::ExtremesOf(const PairRecord& pair) const {
+  return {.clear_until = pair.in_contact ? Instant::Never() : pair.clear_until,
+          .unannounced_until = pair.published.announced ? Instant::Never() : pair.clear_until,
+          .needed_from = pair.tracker.at(),
+          .unsettled_until = pair.unsettled_until,
+          .contacts = pair.in_contact};
 }
 
 std::vector<ReleasedPair> TrackedPairs::TakeReleased() { return std::exchange(released_, {}); }
-
-Instant TrackedPairs::NeededFrom(AgentIndex agent, Instant otherwise) const {
-  Instant needed = otherwise;
-  for (const PairSlot slot : table_.Of(agent)) {
-    needed = std::min(needed, table_[slot].tracker.at());
-  }
-  return needed;
-}
 
 void TrackedPairs::Validate() const {
   table_.Validate();
@@ -381,10 +395,13 @@ void TrackedPairs::Validate() const {
              table_.size());
   for (std::size_t agent = 0; agent < context_.agents.index_end(); ++agent) {
     if (!context_.agents.Contains(AgentIndex(agent))) continue;
+    extremes_.Validate(AgentIndex(agent), table_.Of(AgentIndex(agent)));
     for (const PairSlot slot : table_.Of(AgentIndex(agent))) {
       const PairRecord& pair = table_[slot];
       const AgentIndex partner = pair.PartnerOf(AgentIndex(agent));
       CORE_CHECK(due_.Contains(slot), "a tracked pair is queued", slot.value());
+      CORE_CHECK(extremes_.OfPair(slot) == ExtremesOf(pair), "what a pair says is up to date",
+                 slot.value());
       CORE_CHECK(context_.agents.Contains(partner), "a tracked pair has two agents", slot.value());
       CORE_CHECK(!context_.agents[partner].expired, "no agent of a tracked pair has expired",
                  slot.value());

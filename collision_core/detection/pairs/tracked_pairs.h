@@ -10,6 +10,7 @@
 #include "collision_core/detection/events/announcer.h"
 #include "collision_core/detection/pairs/owner_queues.h"
 #include "collision_core/detection/pairs/pair_evaluator.h"
+#include "collision_core/detection/pairs/pair_extremes.h"
 #include "collision_core/detection/pairs/pair_table.h"
 #include "collision_core/detection/pairs/step_budget.h"
 #include "collision_core/detection/step/detector_options.h"
@@ -26,7 +27,8 @@ struct ReleasedPair {
 /// Tracks pairs, evaluates each when one of its agents has changed or when it is due, and reports
 /// the result to the announcer. Pairs are evaluated in the order of their slots, which is the order
 /// of events. A step costs O(pairs evaluated), plus a logarithm for each in the queue, plus a look
-/// at each pair of a changed agent.
+/// at each pair of a changed agent that does not wait already. When a pair that was an extreme of
+/// its agent's pairs has changed, all of these are visited, at most once in a step.
 ///
 /// A step evaluates no more pairs than its budget pays for (OwnerQueues says which). The others
 /// wait: what was certified of them still holds, though newer states would tell more, and one that
@@ -45,7 +47,7 @@ class TrackedPairs {
   TrackedPairs(const DetectorOptions& options, const DetectorContext& context);
 
   /// The agent of this index is new.
-  void AddAgent(AgentIndex agent) { table_.AddAgent(agent, OwnerOf(context_.agents[agent].id)); }
+  void AddAgent(AgentIndex agent);
   /// Forgets an agent that has left. Requires that it has no pairs.
   void ForgetAgent(AgentIndex agent);
 
@@ -77,8 +79,11 @@ class TrackedPairs {
   /// Pairs that were added, evaluated or removed; the reader clears the set.
   IndexSet<PairSlot>* changed() { return &changed_; }
 
-  /// `otherwise`, or an earlier time: the agent's pairs need none of its states from before it.
-  Instant NeededFrom(AgentIndex agent, Instant otherwise) const;
+  /// What the agent's pairs say of it together. needed_from: they need none of its states from
+  /// before it.
+  const PairExtremes& ExtremesOf(AgentIndex agent) const {
+    return extremes_.Of(agent, table_.Of(agent));
+  }
 
   const std::vector<CollisionEvent>& events() const { return announcer_.events(); }
   std::size_t queued() const { return due_.size(); }
@@ -114,11 +119,13 @@ class TrackedPairs {
   void Drop(PairSlot slot, Departure departure);
   void Remove(PairSlot slot);
   void MarkChanged(PairSlot slot);
+  PairExtremes ExtremesOf(const PairRecord& pair) const;
 
   const DetectorOptions options_;
   const DetectorContext context_;
   const PairQueries queries_;
   PairTable table_;
+  AgentExtremes extremes_;
   PairEvaluator evaluator_;
   StepBudget budget_;
   OwnerQueues owners_;

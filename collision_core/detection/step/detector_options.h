@@ -29,6 +29,10 @@ struct DetectorOptions {
   /// it wait for a later step. The last evaluations of pairs of which an agent leaves or expires
   /// may spend as much again for each owner. 0: no limit but each evaluation's.
   std::uint64_t work_units_per_step = 0;
+  /// Of that, at most what an owner may spend in one step if some of its pairs have waited since an
+  /// earlier one. It then gets its share of a temporal_resolution in several short steps, and holds
+  /// up no other owner for longer than one of these. 0: its whole share at once.
+  std::uint64_t work_units_per_slice = 0;
   /// How candidate pairs are found; changes the cost, never an answer.
   broad_phase::BroadPhaseMethod broad_phase = broad_phase::BroadPhaseMethod::kAuto;
 };

@@ -71,19 +71,12 @@ AgentClearance ReportedClearances::Of(AgentIndex agent) const {
   clearance.agent = record.id;
   clearance.effective_from = reports_.at(agent).effective_from;
   clearance.saturated = coverage_.IsSaturated(agent);
-  clearance.clear_until = clearance.unannounced_until = coverage_[agent].keys.earliest();
-  for (const PairSlot slot : pairs_.Of(agent)) {
-    const PairRecord& pair = pairs_[slot];
-    clearance.unsettled_until = std::max(clearance.unsettled_until, pair.unsettled_until);
-    if (!pair.published.announced) {
-      clearance.unannounced_until = std::min(clearance.unannounced_until, pair.clear_until);
-    }
-    if (pair.in_contact) {
-      clearance.in_contact = true;
-    } else {
-      clearance.clear_until = std::min(clearance.clear_until, pair.clear_until);
-    }
-  }
+  const Instant key = coverage_[agent].keys.earliest();
+  const PairExtremes& pairs = pairs_.ExtremesOf(agent);
+  clearance.clear_until = std::min(key, pairs.clear_until);
+  clearance.unannounced_until = std::min(key, pairs.unannounced_until);
+  clearance.unsettled_until = pairs.unsettled_until;
+  clearance.in_contact = pairs.contacts > 0;
   if (record.expired) clearance.clear_until = record.bound().state.expiry;
   if (clearance.saturated) clearance.clear_until = std::min(clearance.clear_until, now);
   clearance.not_clear = clearance.clear_until <= now;

@@ -20,7 +20,7 @@ class ReportedClearances {
   /// All outlive the object.
   ReportedClearances(const DetectorContext& context, const TrackedPairs& pairs,
                      const CoverageTable& coverage)
-      : context_(context), pairs_(pairs.table()), coverage_(coverage) {}
+      : context_(context), pairs_(pairs), coverage_(coverage) {}
 
   /// The agent of this index is new: nothing has been published.
   void AddAgent(AgentIndex agent);
@@ -55,7 +55,7 @@ class ReportedClearances {
   std::optional<AgentClearance> TakeChange(AgentIndex agent);
 
   const DetectorContext context_;
-  const PairTable& pairs_;
+  const TrackedPairs& pairs_;
   const CoverageTable& coverage_;
   IndexedVector<AgentIndex, Report> reports_;
 };

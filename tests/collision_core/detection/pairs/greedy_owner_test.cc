@@ -26,7 +26,8 @@ struct Seen {
   std::vector<CollisionEvent> honest;
   std::set<std::pair<AgentId, AgentId>> announced, decided;  // of the crowd
   std::map<AgentId, Instant> clear_until;
-  std::uint64_t most = 0;  // units in one step
+  std::uint64_t most = 0;        // units in one step
+  std::uint64_t most_later = 0;  // in one but the first
   std::size_t progress = 0;
   OwnerWork greedy;
 };
@@ -35,10 +36,11 @@ AgentId IdOf(const OwnerId& owner, std::uint32_t slot) {
   return {owner.simulator, slot, owner.run, 1};
 }
 
-Seen Fly(std::uint32_t crowd, double seconds) {
+Seen Fly(std::uint32_t crowd, double seconds, std::uint64_t slice = 0) {
   DetectorOptions options;
   options.temporal_resolution = 1.0 / 16;
   options.work_units_per_step = kPerStep;
+  options.work_units_per_slice = slice;
   Detector detector(options);
   AgentDeclaration ship{.limits = {2, 1}};
   ship.limits.angular_acceleration_max = 0.5;
@@ -72,7 +74,9 @@ Seen Fly(std::uint32_t crowd, double seconds) {
     detector.SetHeardUntil(kGreedy, At(now));
     detector.Advance(At(now), [&] { ++seen.progress; });
     detector.Validate();
-    seen.most = std::max(seen.most, detector.counters().work_units - before);
+    const std::uint64_t units = detector.counters().work_units - before;
+    seen.most = std::max(seen.most, units);
+    if (now > 0) seen.most_later = std::max(seen.most_later, units);
     for (const CollisionEvent& event : detector.events()) {
       if (OwnerOf(event.lower) == kHonest) {
         seen.honest.push_back(event);
@@ -92,8 +96,7 @@ Seen Fly(std::uint32_t crowd, double seconds) {
   return seen;
 }
 
-TEST(GreedyOwner, LeavesTheEventsOfOthersAsTheyAre) {
-  const Seen alone = Fly(0, 7), beside = Fly(kCrowd, 7);
+void ExpectSameHonestEvents(const Seen& alone, const Seen& beside) {
   ASSERT_GE(alone.honest.size(), 3u);
   ASSERT_EQ(alone.honest.size(), beside.honest.size());
   for (std::size_t i = 0; i < alone.honest.size(); ++i) {
@@ -102,6 +105,18 @@ TEST(GreedyOwner, LeavesTheEventsOfOthersAsTheyAre) {
     EXPECT_EQ(alone.honest[i].begin.earliest, beside.honest[i].begin.earliest) << i;
     EXPECT_EQ(alone.honest[i].begin.latest, beside.honest[i].begin.latest) << i;
   }
+}
+
+TEST(GreedyOwner, LeavesTheEventsOfOthersAsTheyAre) {
+  ExpectSameHonestEvents(Fly(0, 7), Fly(kCrowd, 7));
+}
+
+TEST(GreedyOwner, HoldsAStepUpForNoMoreThanASlice) {
+  constexpr std::uint64_t kSlice = kPerStep / 8;
+  const Seen alone = Fly(0, 7, kSlice), beside = Fly(kCrowd, 7, kSlice);
+  ExpectSameHonestEvents(alone, beside);
+  EXPECT_LE(beside.most_later, alone.most + kSlice + (1 + kSlice / kTurnMin) * kOverrunOfTurn);
+  EXPECT_GT(beside.greedy.evaluated, 100u);
 }
 
 TEST(GreedyOwner, IsHeldToTheStepsWork) {

@@ -17,6 +17,8 @@ constexpr double kStep = 0.125;  // and Δt [s]
 
 class OwnerQueuesTest : public testing::Test {
  protected:
+  explicit OwnerQueuesTest(std::uint64_t slice = 0) : queues_(kStep, slice) {}
+
   void Add(std::uint32_t slot, const OwnerId& a, const OwnerId& b) {
     queues_.AddPair(PairSlot(slot), a, b);
     queues_.Wait(PairSlot(slot));
@@ -42,8 +44,14 @@ class OwnerQueuesTest : public testing::Test {
     return {};
   }
 
-  OwnerQueues queues_{kStep};
+  OwnerQueues queues_;
   double now_ = 0;
+};
+
+/// A slice is two turns.
+class SlicedOwnerQueuesTest : public OwnerQueuesTest {
+ protected:
+  SlicedOwnerQueuesTest() : OwnerQueuesTest(20) {}
 };
 
 using Slots = std::vector<std::uint32_t>;
@@ -116,6 +124,35 @@ TEST_F(OwnerQueuesTest, SaysSinceWhenAnOwnerIsHeldToItsShare) {
   EXPECT_EQ(WorkOf(kMany).wanted, 4u);
   EXPECT_EQ(WorkOf(kMany).evaluated, 4u);
   EXPECT_EQ(WorkOf(kMany).work_units, 40u);
+}
+
+TEST_F(SlicedOwnerQueuesTest, AnOwnerWhosePairsHaveWaitedSpendsASliceInOneStep) {
+  for (std::uint32_t slot = 0; slot < 20; ++slot) Add(slot, kMany, kMany);
+  EXPECT_EQ(Take(40).size(), 4u) << "nothing has waited yet";
+  EXPECT_EQ(Take(40).size(), 2u);
+  for (std::uint32_t slot = 20; slot < 24; ++slot) Add(slot, kOne, kOne);
+  EXPECT_EQ(Take(60), (Slots{6, 7, 20, 21, 22, 23})) << "the other one has waited for nothing";
+}
+
+// A slice of 20 of 40 in each Δt: one is due each half of it, and puts itself off by as much.
+TEST_F(SlicedOwnerQueuesTest, AnOwnerThatIsHeldGivesWayToTheOthers) {
+  for (std::uint32_t slot = 0; slot < 20; ++slot) Add(slot, kMany, kMany);
+  Take(40), Take(40);
+  Add(20, kOne, kOne);
+  EXPECT_EQ(Take(40, 0.5), (Slots{20}));
+  EXPECT_EQ(Take(40, 0).size(), 2u) << "alone it need not wait";
+  for (const bool waits_on : {true, false, true, false}) {
+    queues_.Wait(PairSlot(20u));
+    EXPECT_EQ(Take(40, 0.5).size(), waits_on ? 1u : 3u);
+  }
+}
+
+TEST_F(SlicedOwnerQueuesTest, TheSlicesOfAResolutionAreTheOwnersShare) {
+  for (std::uint32_t slot = 0; slot < 60; ++slot) Add(slot, kMany, kMany);
+  std::size_t turns = 0;
+  for (int step = 0; step < 32; ++step) turns += Take(40, 0.25).size();
+  EXPECT_GE(turns, 8 * 4u) << "8 resolutions of four turns each";
+  EXPECT_LE(turns, (8 + 1) * 4u + 1) << "and the credit at first";
 }
 
 }  // namespace

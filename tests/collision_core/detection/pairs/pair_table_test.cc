@@ -43,6 +43,26 @@ TEST(PairTable, SlotsRestBeforeTheyAreUsedAgain) {
   pairs.Validate();
 }
 
+// An agent that changes sees each of its idle pairs once; a pair that was taken with one agent is
+// still listed with the other.
+TEST(PairTable, HandsOutTheIdlePairsOfAnAgentOnce) {
+  PairTable pairs = TableOf(100, 10, 3);
+  const PairSlot ab = pairs.Add(PairOf(Agent(0), Agent(1)));
+  const PairSlot bc = pairs.Add(PairOf(Agent(1), Agent(2)));
+  EXPECT_EQ(pairs.TakeIdle(Agent(1)), (std::vector{ab, bc})) << "new ones";
+  EXPECT_TRUE(pairs.TakeIdle(Agent(1)).empty());
+  pairs.SetIdle(bc);
+  pairs.SetIdle(bc);
+  pairs.Validate();
+  EXPECT_EQ(pairs.TakeIdle(Agent(1)), std::vector{bc});
+  EXPECT_EQ(pairs.TakeIdle(Agent(2)), std::vector{bc}) << "listed once, and once again in vain";
+  pairs.SetIdle(ab);
+  pairs.Remove(ab);
+  EXPECT_TRUE(pairs.TakeIdle(Agent(0)).empty());
+  EXPECT_TRUE(pairs.TakeIdle(Agent(1)).empty());
+  pairs.Validate();
+}
+
 TEST(PairTable, KnowsThePairsOfEachAgentAndItsRoom) {
   constexpr std::uint32_t kAgents = 9, kPairsMax = 20, kPerAgentMax = 6;
   Random random(4);

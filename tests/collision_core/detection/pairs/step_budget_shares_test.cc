@@ -65,5 +65,20 @@ TEST(StepBudgetShares, AnUnlimitedBudgetIsNotShared) {
   EXPECT_THROW(budget.Start({}), CheckFailure);
 }
 
+// One that may have 40 leaves the other all the rest; what it leaves of the 40 is its own.
+TEST(StepBudgetShares, APayerThatIsLimitedGetsNothingOfWhatOthersLeave) {
+  StepBudget budget(1000, 120);
+  const OwnerId many{7, 1}, one{3, 1};
+  const std::vector<PairClaim> claims = {
+      {{.wanted = 1000}, many, 40}, {{.wanted = 30}, one}, {{.wanted = 1000}, many, 40}};
+  budget.Start(claims);
+  EXPECT_EQ(budget.Allowed(), 20u);
+  budget.Spent(15);
+  EXPECT_EQ(budget.Allowed(), 80u) << "its claim, and what is not claimed";
+  budget.Spent(0);
+  EXPECT_EQ(budget.Allowed(), 25u);
+  budget.Spent(25);
+}
+
 }  // namespace
 }  // namespace collision::detection

@@ -212,14 +212,13 @@ TEST_F(TrackedPairsTest, AnAgentThatLeavesTakesItsPairsAlong) {
 
 TEST_F(TrackedPairsTest, RetractedFreedomNeedsOlderStates) {
   ASSERT_TRUE(pairs_.Track(a_, b_, At(10), Past::kKnown));
-  EXPECT_EQ(pairs_.NeededFrom(a_, At(20)), At(10));
-  EXPECT_EQ(pairs_.NeededFrom(b_, At(5)), At(5));
-  EXPECT_EQ(pairs_.NeededFrom(c_, At(20)), At(20));
+  EXPECT_EQ(pairs_.ExtremesOf(a_).needed_from, At(10));
+  EXPECT_EQ(pairs_.ExtremesOf(c_).needed_from, Instant::Never());
   pairs_.RetractFree(b_, At(4));
-  EXPECT_EQ(pairs_.NeededFrom(a_, At(20)), At(4));
+  EXPECT_EQ(pairs_.ExtremesOf(a_).needed_from, At(4));
   EXPECT_FALSE(PairOf(a_).published.broken);
   pairs_.MarkBroken(a_, At(3));
-  EXPECT_EQ(pairs_.NeededFrom(b_, At(20)), At(3));
+  EXPECT_EQ(pairs_.ExtremesOf(b_).needed_from, At(3));
   EXPECT_TRUE(PairOf(a_).published.broken);
 }
 
