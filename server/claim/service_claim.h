@@ -128,7 +128,7 @@ class ServiceClaim {
 
   const ClaimOptions options_;
   ClaimPhase phase_ = ClaimPhase::kClaiming;
-  std::optional<std::int64_t> since_ns_;  ///< Of the claim, or of the waking.
+  std::optional<std::int64_t> since_ns_;      ///< Of the claim, or of the waking.
   std::optional<std::int64_t> contended_ns_;  ///< Serving: when it last was, though that one ended.
   std::optional<std::int64_t> woke_ns_;
   std::optional<std::int64_t> vacant_ns_;  ///< Since when nobody serves; while it stands by.

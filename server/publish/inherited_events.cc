@@ -65,9 +65,9 @@ void InheritedEvents::Hear(const v1::CollisionEvent& event) {
         {heard.free_until_ns, event.begin().earliest_ns(), dismissed ? event.now_ns() : 0});
   }
   const v1::CollisionEvent& before = heard.contact;
-  if (IsContact(event) && (event.contact() > before.contact() ||
-                           (event.contact() == before.contact() &&
-                            before.status() == v1::EVENT_CONFIRMED))) {
+  if (IsContact(event) &&
+      (event.contact() > before.contact() ||
+       (event.contact() == before.contact() && before.status() == v1::EVENT_CONFIRMED))) {
     heard.contact = event;
   }
   if (pairs_.size() >= kPairsMax) {
