@@ -24,6 +24,7 @@ struct FakeNetwork {
   std::vector<std::chrono::nanoseconds> waits;  ///< The timeout of every Receive().
   std::size_t flushed = 0;                      ///< How much of `written` has left.
   bool alive = false;
+  std::chrono::nanoseconds later{0};  ///< Than the steady clock, for the World.
   /// Called when the World waits and nothing is arriving: the service's turn to answer.
   std::function<void(FakeNetwork*)> on_wait;
 
@@ -85,6 +86,10 @@ class FakeTransport : public Transport {
   }
 
   bool service_alive() const override { return network_->alive; }
+
+  std::chrono::steady_clock::time_point Now() const override {
+    return Transport::Now() + network_->later;
+  }
 
  private:
   std::shared_ptr<FakeNetwork> network_;

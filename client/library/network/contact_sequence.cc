@@ -9,6 +9,12 @@ void ContactSequence::Restart() {
   taken_ = given_up_ = given_up_after_ = 0;
 }
 
+void ContactSequence::GoOn(const ContactSequence& heard) {
+  const std::uint64_t missed = missed_;
+  *this = heard;
+  missed_ = missed;
+}
+
 bool ContactSequence::Take(std::uint64_t sequence) {
   if (begun_ && sequence <= taken_) return false;
   if (begun_) {

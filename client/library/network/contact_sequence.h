@@ -15,6 +15,9 @@ class ContactSequence {
   /// The service is another one, which counts from 1. missed() stays.
   void Restart();
 
+  /// The service is one from which `heard` has come before. missed() stays.
+  void GoOn(const ContactSequence& heard);
+
   /// A contact has come. False: it had come before.
   bool Take(std::uint64_t sequence);
 

@@ -32,9 +32,6 @@ class HeldForecasts {
   /// Hands out what is held, in the order in which it was published.
   [[nodiscard]] std::vector<v1::CollisionEvent> Take();
 
-  /// Another service is in force.
-  void Clear() { *this = {}; }
-
  private:
   std::uint64_t newest_ = 0;
   std::map<std::pair<AgentId, AgentId>, v1::CollisionEvent> by_pair_;

@@ -145,9 +145,8 @@ bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t n
   const std::uint32_t epoch = service_.epoch();
   if (!service_.Accept(stamp, now)) return false;
   if (service_.id() != id) {
-    contacts_.Restart();
+    ChangeService(id);
     gate_.Clear();
-    forecasts_.Clear();
     clearances_sequence_ = 0;
     service_is_new_ = id != 0;
     agents_.BeginService();
@@ -160,6 +159,18 @@ bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t n
   service_now_ns_ = std::max(service_now_ns_, now_ns);
   if (!lock_step_) echo_.Hear(stamp, now_ns, wall_clock_());
   return true;
+}
+
+// The one before may come into force again: it publishes most things once, and counts on.
+void World::Implementation::ChangeService(std::uint64_t former_id) {
+  FormerService former{former_id, contacts_, std::exchange(forecasts_, {})};
+  if (former_.id == service_.id()) {
+    contacts_.GoOn(former_.contacts);
+    forecasts_ = std::move(former_.forecasts);
+  } else {
+    contacts_.Restart();
+  }
+  former_ = std::move(former);
 }
 
 void World::Implementation::Watch(CurrentService::Time now) {

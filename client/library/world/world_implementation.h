@@ -83,6 +83,13 @@ class World::Implementation {
   const Traffic& traffic() const { return agents_.traffic(); }
 
  private:
+  /// What had come from the service that was in force before.
+  struct FormerService {
+    std::uint64_t id = 0;
+    ContactSequence contacts;
+    HeldForecasts forecasts;
+  };
+
   Deadline Until(std::chrono::nanoseconds timeout) const;
   void RequireOutsideCallback(const char* function) const;
   void RequireForward(std::int64_t clock_ns) const;
@@ -140,6 +147,7 @@ class World::Implementation {
 
   /// Whether the sample is of the service in force; takes note of its time.
   bool Accept(const v1::ServiceStamp& stamp, std::int64_t now_ns, CurrentService::Time now);
+  void ChangeService(std::uint64_t former_id);
 
   /// Notes when the service in force is heard no longer, and when one is heard again.
   void Watch(CurrentService::Time now);
@@ -166,6 +174,7 @@ class World::Implementation {
   RevisionFilter filter_;
   ClearanceGate gate_;
   HeldForecasts forecasts_;
+  FormerService former_;
   std::function<std::int64_t()> wall_clock_;
   ServiceEcho echo_;
 

@@ -89,6 +89,25 @@ TEST_F(ContactsTest, AGrantWaitsForTheForecastsBeforeIt) {
   EXPECT_EQ(world_.granted_until_ns(), 50);
 }
 
+// A forged status, or a service that is gone as soon as it came.
+TEST_F(ContactsTest, AServiceThatIsFollowedAgainGoesOnWhereItWas) {
+  Arrive(Contact(1));
+  Arrive(Forecast(7, 2));
+  world_.Poll();
+  network_->Grant(20, 99);
+  world_.Poll();
+  network_->later += kServiceSilence;
+  Grant(50, 1);
+  network_->arriving.back().mutable_clearance()->set_forecasts_sequence(7);
+  world_.Poll();
+  EXPECT_EQ(world_.granted_until_ns(), 50) << "all that it says was published has come";
+  world_.AdvanceTo(0, nanoseconds(0));
+  const std::vector<Event> events = world_.TakeEvents();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[1].status, EventStatus::kPossible) << "what was not told yet is not forgotten";
+  EXPECT_EQ(world_.contacts_missed(), 0u);
+}
+
 TEST_F(ContactsTest, AStepIsToldTheNewestForecastOfEachPairWhateverCameBefore) {
   for (const bool overwritten : {false, true}) {
     std::vector<std::uint32_t> revisions;
