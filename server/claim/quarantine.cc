@@ -231,6 +231,8 @@ void Quarantine::Apply(const v1::Input& input) {
 
 void Quarantine::EndMessages() { page_->applying = kAllApplied; }
 
+void Quarantine::AbandonStep() { std::atomic_ref(page_->in_step).store(0); }
+
 void Quarantine::EndStep() {
   std::atomic_signal_fence(std::memory_order_seq_cst);
   page_->in_step = 0;

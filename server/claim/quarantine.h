@@ -72,6 +72,9 @@ class Quarantine {
   void EndMessages();
   void EndStep();
 
+  /// The program ends in the middle of a step because it was asked to. Any thread.
+  void AbandonStep();
+
   std::uint32_t suspected() const;
   std::uint32_t quarantined() const;
 

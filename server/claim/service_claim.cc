@@ -25,9 +25,12 @@ void ServiceClaim::Hear(const HeardService& heard, std::int64_t now_ns) {
   }
   auto known = others_.find(heard.instance);
   if (known == others_.end()) {
-    std::erase_if(others_, [&](const auto& other) {
-      return now_ns - other.second.heard_ns > options_.heard_for_ns;
-    });
+    // The network tells when one has ended; what was only forged makes room.
+    if (others_.size() == kOthersMax) {
+      std::erase_if(others_, [&](const auto& other) {
+        return now_ns - other.second.heard_ns > options_.heard_for_ns;
+      });
+    }
     if (others_.size() == kOthersMax) return;
     known = others_.try_emplace(heard.instance).first;
   } else if (known->second.newest.sequence == heard.sequence) {
@@ -39,8 +42,9 @@ void ServiceClaim::Hear(const HeardService& heard, std::int64_t now_ns) {
 }
 
 void ServiceClaim::HearOfTerm(std::uint32_t term) {
-  if (term != std::numeric_limits<std::uint32_t>::max())
-    highest_heard_ = std::max(highest_heard_, term);
+  const std::uint32_t known = std::max({highest_heard_, options_.term_before, term_});
+  if (term <= known || term - known > kTermLeapMax) return;
+  highest_heard_ = term;
 }
 
 /// Whether `other` keeps the world and this service leaves it.
@@ -68,7 +72,7 @@ bool ServiceClaim::HasStandby() const {
 
 void ServiceClaim::WakeUp(std::int64_t now_ns) {
   woke_ns_ = now_ns;
-  if (phase_ != ClaimPhase::kServing || !HasStandby()) return;
+  if (!IsReplaceable()) return;
   phase_ = ClaimPhase::kWaking;
   since_ns_ = now_ns;
 }

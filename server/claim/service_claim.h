@@ -78,7 +78,8 @@ class ServiceClaim {
   bool NeedsWakeUp() const { return phase_ == ClaimPhase::kStandby || HasStandby(); }
 
   /// A simulator follows, or has followed, a service of this term, which may be gone or stand
-  /// still: this one goes before it, once it serves. The greatest number is no sign of one.
+  /// still: this one goes before it, once it serves. Who leaps by more than kTermLeapMax beyond
+  /// all that is known follows nobody.
   void HearOfTerm(std::uint32_t term);
 
   /// Brings the phase up to date; the first call begins the claim.
@@ -94,8 +95,8 @@ class ServiceClaim {
   /// It does all the work of a service, whether it publishes it or not.
   bool works() const { return phase_ == ClaimPhase::kServing || phase_ == ClaimPhase::kStandby; }
 
-  /// Another service stands by for this one.
-  bool HasStandby() const;
+  /// It serves, and another service stands by for it.
+  bool IsReplaceable() const { return phase_ == ClaimPhase::kServing && HasStandby(); }
 
   /// kYielded, kStandby: the other service, in words for the log and standard error.
   const std::string& why() const { return why_; }
@@ -112,6 +113,7 @@ class ServiceClaim {
   std::vector<std::string> Conflicts(std::int64_t now_ns) const;
 
  private:
+  bool HasStandby() const;
   struct Other {
     HeardService newest;
     std::int64_t heard_ns = 0;
@@ -142,6 +144,9 @@ class ServiceClaim {
 /// So long after another service was heard, what this one says may still be overwritten by what
 /// that one wrote: longer than a message is on its way on any network.
 inline constexpr std::int64_t kContendedForNs = 60'000'000'000;
+
+/// Services that may have come and gone unheard, and each served a simulator in a term of its own.
+inline constexpr std::uint32_t kTermLeapMax = 4096;
 
 /// Other services of one world that are remembered at a time; further ones are not, except that
 /// their terms count.

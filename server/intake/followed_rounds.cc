@@ -38,11 +38,22 @@ Instant FollowedRounds::RoundEnd() const {
 
 void FollowedRounds::Apply(const v1::Input& input) {
   const Instant time = TimeOf(input);
-  if (time <= RoundEnd() || kept_.size() >= kKeptMax) return intake_.Apply(input);
+  const std::size_t bytes = input.ByteSizeLong();
+  const bool full = kept_.size() >= kKeptMax || kept_bytes_ + bytes > kKeptBytesMax;
+  if (time <= RoundEnd() || full || !IsOfLockStep(input)) return intake_.Apply(input);
   kept_.push_back(input);
+  kept_bytes_ += bytes;
   if (!input.has_simulator_clock()) return;
   newest_clock_ = std::max(newest_clock_, time);
   intake_.NoteFollower(input.simulator_clock());
+}
+
+/// Others have no grant that could be waited for.
+bool FollowedRounds::IsOfLockStep(const v1::Input& input) const {
+  const Simulator* const simulator =
+      world_.Find(input.has_simulator_clock() ? input.simulator_clock().simulator_id()
+                                              : input.agent_states().simulator_id());
+  return simulator != nullptr && simulator->holds_time() && simulator->time().lock_step();
 }
 
 void FollowedRounds::ApplyKept() {
@@ -60,11 +71,16 @@ void FollowedRounds::TakeRound() {
   const Instant end = RoundEnd();
   for (v1::Input& input : std::exchange(kept_, {})) {
     if (TimeOf(input) <= end) {
-      intake_.Apply(input);
+      TakeOut(input);
     } else {
       kept_.push_back(std::move(input));
     }
   }
+}
+
+void FollowedRounds::TakeOut(const v1::Input& input) {
+  kept_bytes_ -= input.ByteSizeLong();
+  intake_.Apply(input);
 }
 
 /// Applies what was kept of the simulator up to and with its first clock.
@@ -78,7 +94,7 @@ void FollowedRounds::TakeToClock(std::uint64_t simulator) {
     const bool is_before = taken > 0;
     taken -= is_before ? 1 : 0;
     if (is_before && IsOf(input, simulator)) {
-      intake_.Apply(input);
+      TakeOut(input);
     } else {
       kept_.push_back(std::move(input));
     }
@@ -87,6 +103,7 @@ void FollowedRounds::TakeToClock(std::uint64_t simulator) {
 
 void FollowedRounds::Clear() {
   kept_.clear();
+  kept_bytes_ = 0;
   newest_clock_ = Instant::Always();
 }
 

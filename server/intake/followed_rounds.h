@@ -20,6 +20,7 @@ class FollowedRounds {
  public:
   /// Beyond it nothing more is kept: rounds are judged together, which makes brackets wider.
   static constexpr std::size_t kKeptMax = 65536;
+  static constexpr std::size_t kKeptBytesMax = 64 << 20;
 
   /// Both outlive this.
   FollowedRounds(World* world, Intake* intake) : world_(*world), intake_(*intake) {}
@@ -40,12 +41,15 @@ class FollowedRounds {
 
  private:
   Instant RoundEnd() const;
+  bool IsOfLockStep(const v1::Input& input) const;
   void TakeRound();
+  void TakeOut(const v1::Input& input);
   void TakeToClock(std::uint64_t simulator);
 
   World& world_;
   Intake& intake_;
   std::deque<v1::Input> kept_;
+  std::size_t kept_bytes_ = 0;
   Instant newest_clock_ = Instant::Always();  ///< The greatest one that was kept.
   bool follows_ = false;
 };

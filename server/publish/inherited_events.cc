@@ -50,6 +50,10 @@ bool IsContact(const v1::CollisionEvent& event) { return event.contacts_sequence
 }  // namespace
 
 void InheritedEvents::Hear(const v1::CollisionEvent& event) {
+  if (IsContact(event)) {
+    if (told_.size() == kRepeatedMax) told_.pop_front();
+    told_.push_back(event);
+  }
   const Pair pair{IdOf(event.lower()), IdOf(event.higher())};
   const Heard* known = Find(pair);
   Heard heard = known != nullptr ? *known : Heard();
@@ -87,10 +91,15 @@ void InheritedEvents::Keep(const Event& contact) {
 }
 
 std::vector<InheritedEvents::Event> InheritedEvents::TakeUntold() {
-  std::vector<Event> untold(std::make_move_iterator(untold_.begin()),
-                            std::make_move_iterator(untold_.end()));
+  std::vector<Event> untold(untold_.begin(), untold_.end());
   untold_.clear();
   return untold;
+}
+
+std::vector<v1::CollisionEvent> InheritedEvents::TakeTold() {
+  std::vector<v1::CollisionEvent> told(told_.begin(), told_.end());
+  told_.clear();
+  return told;
 }
 
 std::uint32_t InheritedEvents::NumberOf(const Event& event) {

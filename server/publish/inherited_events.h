@@ -33,6 +33,9 @@ class InheritedEvents {
   /// Contacts that the other service has not published yet; beyond, the oldest are given up.
   static constexpr std::size_t kUntoldMax = 32768;
 
+  /// Contacts that are told once more after a take-over; of more the oldest are not.
+  static constexpr std::size_t kRepeatedMax = 1024;
+
   /// The service in force has published this.
   void Hear(const v1::CollisionEvent& event);
 
@@ -41,6 +44,10 @@ class InheritedEvents {
 
   /// It takes over: the contacts that have not been published, in their order.
   std::vector<detection::CollisionEvent> TakeUntold();
+
+  /// Before that: the newest that have, as the other service told them. It may have ended before
+  /// all readers had them; those that know them pass over them.
+  std::vector<v1::CollisionEvent> TakeTold();
 
   /// The number of the event's contact for readers.
   std::uint32_t NumberOf(const detection::CollisionEvent& event);
@@ -64,6 +71,7 @@ class InheritedEvents {
   bool IsTold(const Event& contact);
 
   std::map<Pair, Heard> pairs_, earlier_;  ///< When the first is full it takes the other's place.
+  std::deque<v1::CollisionEvent> told_;
   std::deque<Event> untold_;
 };
 

@@ -121,29 +121,37 @@ void Publisher::NoteEvents(const std::vector<detection::CollisionEvent>& events,
 }
 
 void Publisher::PublishInherited(const World& world) {
-  std::set<std::uint32_t> told;
+  std::set<std::pair<detection::AgentId, detection::AgentId>> told;
+  for (v1::CollisionEvent& contact : inherited_.TakeTold()) PublishContact(std::move(contact));
   for (const detection::CollisionEvent& contact : inherited_.TakeUntold()) {
-    told.insert(contact.pair_slot);
+    told.insert({contact.lower, contact.higher});
     Publish({contact, true}, world);
   }
   for (const Telling& telling : filter_.Standing()) {
-    if (!telling.contact || !told.contains(telling.event.pair_slot)) Publish(telling, world);
+    const detection::CollisionEvent& event = telling.event;
+    if (!telling.contact || !told.contains({event.lower, event.higher})) Publish(telling, world);
   }
 }
 
 void Publisher::Publish(const Telling& telling, const World& world) {
-  v1::Output output;
-  v1::CollisionEvent& event = *output.mutable_collision_event();
-  event = Encode(telling.event, world.ended_runs());
+  v1::CollisionEvent event = Encode(telling.event, world.ended_runs());
   event.set_contact(inherited_.NumberOf(telling.event));
-  ++(telling.contact ? events_.contacts : events_.forecasts);
-  if (telling.contact) {
-    // One instance holds the history of all contacts.
-    event.set_pair_slot(0);
-    event.set_contacts_sequence(events_.contacts);
-  }
+  if (telling.contact) return PublishContact(std::move(event));
+  ++events_.forecasts;
   *event.mutable_stamp() = NextStamp();
-  if (!telling.contact) newest_forecast_ = event.stamp().sequence();
+  newest_forecast_ = event.stamp().sequence();
+  v1::Output output;
+  *output.mutable_collision_event() = std::move(event);
+  bus_.Publish(output);
+}
+
+void Publisher::PublishContact(v1::CollisionEvent event) {
+  // One instance holds the history of all contacts.
+  event.set_pair_slot(0);
+  event.set_contacts_sequence(++events_.contacts);
+  *event.mutable_stamp() = NextStamp();
+  v1::Output output;
+  *output.mutable_collision_event() = std::move(event);
   bus_.Publish(output);
 }
 

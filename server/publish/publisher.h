@@ -75,6 +75,7 @@ class Publisher {
   std::vector<Telling> Filter(const std::vector<detection::CollisionEvent>& events,
                               const World& world);
   void Publish(const Telling& telling, const World& world);
+  void PublishContact(v1::CollisionEvent event);
   void PublishChunk(const World& world, Simulator* to, std::uint32_t chunk);
 
   const ServiceClaim& claim_;

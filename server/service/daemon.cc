@@ -100,7 +100,8 @@ class Daemon::Implementation {
     // Otherwise there is a step for each status at least.
     const std::int64_t gap_ns = world_.monotonic_ns() - before_ns;
     if (gap_ns > ToNanoseconds(config_.status_period_s()) + kStoodStill) world_.WakeUp();
-    if (gap_ns > Standstill()) claim_.WakeUp(world_.monotonic_ns());
+    if (gap_ns > Standstill() || bus_.holds()) claim_.WakeUp(world_.monotonic_ns());
+    if (claim_.phase() == ClaimPhase::kServing) bus_.EndHold(true);
     if (!Claim(inputs)) return false;
     if (clock_step_) FollowStep(*clock_step_);
     for (const v1::Input& input : inputs) {
@@ -111,14 +112,13 @@ class Daemon::Implementation {
     full_batches_.Take(inputs, config_.inputs_per_batch_max());
     if (!full_batches_.holds_clocks()) intake_.TakeClocks();
     rounds_.ApplyKept();
-    // A standby does what the service in force is asked.
     const bool restarts = claim_.works() && operators_.ObeyAll(inputs);
     if (operators_.TakeNews()) schedule_.Hasten();
     const bool removed = RemoveSilent();
     ReportSilence(world_.ReleaseSilent());
     MoveOn(!inputs.empty() || removed);
     if (restarts) EndEpoch("an operator restarts time");
-    if (world_.EpochIsOver()) EndEpoch("no simulator holds time any more");
+    if (claim_.works() && world_.EpochIsOver()) EndEpoch("no simulator holds time any more");
     intake_.EndBatch();
     if (claim_.phase() == ClaimPhase::kServing) {
       if (!KeepState(journal_.Keep(world_))) return false;
@@ -194,7 +194,7 @@ class Daemon::Implementation {
     intake_.SetContended(claim_.IsContended(now_ns));
     if (claim_.phase() != before) ChangePhase(before);
     if (claim_.phase() == ClaimPhase::kStandby) rounds_.StandBy(heard_granted_);
-    bus_.HoldAfter(std::chrono::nanoseconds(claim_.HasStandby() ? Standstill() : 0));
+    bus_.HoldAfter(std::chrono::nanoseconds(claim_.IsReplaceable() ? Standstill() : 0));
     return claim_.phase() != ClaimPhase::kYielded;
   }
 
@@ -210,7 +210,8 @@ class Daemon::Implementation {
     schedule_.Hasten();
     switch (claim_.phase()) {
       case ClaimPhase::kServing:
-        if (before == ClaimPhase::kWaking) return bus_.EndHold(true);
+        bus_.EndHold(before == ClaimPhase::kWaking);
+        if (before == ClaimPhase::kWaking) return;
         BeginTerm();
         if (before != ClaimPhase::kStandby) return;
         // Everybody is told anew what holds.

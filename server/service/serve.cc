@@ -30,7 +30,7 @@ namespace {
 constexpr std::chrono::milliseconds kStepPatience{700};
 
 /// Leaves the step that runs: nothing is lost that the recording does not hold.
-[[noreturn]] void EndInTheStep(RecordingWriter* recorder) {
+[[noreturn]] void EndInTheStep(RecordingWriter* recorder, Quarantine* quarantine) {
   std::unique_lock<std::mutex> no_write;
   if (recorder != nullptr) no_write = recorder->HoldWrites();
   spdlog::warn(
@@ -38,6 +38,7 @@ constexpr std::chrono::milliseconds kStepPatience{700};
       "waiting for it; the recording, if any, is complete",
       kStepPatience.count());
   spdlog::default_logger_raw()->flush();
+  if (quarantine != nullptr) quarantine->AbandonStep();
   std::_Exit(kExitOk);
 }
 
@@ -119,8 +120,9 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
          service_manager.Alive(now);
          return status.IsDue(now);
        }});
-  const StopSignalWatcher signals([&daemon] { daemon.Stop(); }, kStepPatience,
-                                  [recorder] { EndInTheStep(recorder); });
+  const StopSignalWatcher signals(
+      [&daemon] { daemon.Stop(); }, kStepPatience,
+      [recorder, quarantine = parts.quarantine] { EndInTheStep(recorder, quarantine); });
   spdlog::info("collisiond {}, instance {:016x}, claims world \"{}\" on domain {}", Version(),
                parts.claim.instance, config.world(), config.domain());
   if (parts.journal == nullptr && !has_journal_later)

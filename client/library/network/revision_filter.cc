@@ -13,16 +13,17 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
     return false;
   const Pair pair{Id(event.lower()), Id(event.higher())};
   Known* known = Find(pair);
-  const Revision revision{event.contact(), event.revision(), event.status(),
-                          event.begin().earliest_ns(), event.begin().latest_ns()};
-  if (known != nullptr && IsOutdated(event, *known)) {
+  const Revision revision{
+      event.stamp().service_id(),  event.contact(),          event.revision(), event.status(),
+      event.begin().earliest_ns(), event.begin().latest_ns()};
+  const bool repeated = known != nullptr && IsRepeated(event, *known);
+  if (known != nullptr && !repeated && IsOutdated(event, *known)) {
     // A contact is history: it counts, however late it comes.
     if (is_contact && event.contact() >= known->last_contact.contact) {
       known->last_contact = revision;
     }
     return is_contact;
   }
-  const bool repeated = known != nullptr && IsRepeated(event, *known);
   if (repeated && is_contact) {
     ++contacts_repeated_;
     // What is over stays over, and what came after it stays the newest.
@@ -31,7 +32,6 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
     }
   }
   Known next = known != nullptr ? *known : Known();
-  next.service = event.stamp().service_id();
   next.newest = revision;
   if (is_contact) next.last_contact = revision;
   if (known_.size() >= kPairsMax) {
@@ -43,24 +43,24 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
 }
 
 bool RevisionFilter::IsRepeated(const v1::CollisionEvent& event, const Known& known) {
-  if (known.service == event.stamp().service_id()) return false;
   if (IsForecast(event.status())) {
-    return event.contact() == known.newest.contact && event.status() == known.newest.status &&
+    return event.stamp().service_id() != known.newest.service &&
+           event.contact() == known.newest.contact && event.status() == known.newest.status &&
            event.begin().earliest_ns() >= known.newest.begin_earliest_ns;
   }
   const Revision& last = known.last_contact;
-  if (last.contact == 0) return false;
+  if (last.contact == 0 || last.service == event.stamp().service_id()) return false;
   // Of an earlier contact of the pair readers of this one have been told.
   if (event.begin().latest_ns() < last.begin_earliest_ns) return true;
   const bool same = event.contact() == last.contact &&
                     event.begin().earliest_ns() <= last.begin_latest_ns &&
                     last.begin_earliest_ns <= event.begin().latest_ns();
   const bool is_over = last.status == v1::EVENT_ENDED || last.status == v1::EVENT_UNDECIDED;
-  return same && (event.status() == last.status || (is_over && !event.began_before()));
+  return same && (event.status() == last.status || is_over);
 }
 
 bool RevisionFilter::IsOutdated(const v1::CollisionEvent& event, const Known& known) {
-  if (known.service != event.stamp().service_id()) return false;
+  if (known.newest.service != event.stamp().service_id()) return false;
   return std::pair(event.contact(), event.revision()) <=
          std::pair(known.newest.contact, known.newest.revision);
 }

@@ -39,6 +39,7 @@ class RevisionFilter {
 
   /// What an event says, as far as it is compared.
   struct Revision {
+    std::uint64_t service = 0;
     std::uint32_t contact = 0;  ///< 0: none.
     std::uint32_t revision = 0;
     v1::EventStatus status{};
@@ -47,7 +48,6 @@ class RevisionFilter {
 
   /// Of a pair.
   struct Known {
-    std::uint64_t service = 0;  ///< From which the newest is.
     Revision newest;
     Revision last_contact;  ///< No forecast.
   };

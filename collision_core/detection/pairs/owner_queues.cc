@@ -29,14 +29,15 @@ void OwnerQueues::AddPair(PairSlot slot, const OwnerId& a, const OwnerId& b) {
     ++owner.pairs;
     return &owner;
   };
-  entries_[slot] = Entry{.a = join(a), .b = join(b)};
+  Queue* const first = join(a);
+  entries_[slot] = Entry{.a = first, .b = a == b ? first : join(b)};
 }
 
 void OwnerQueues::RemovePair(PairSlot slot) {
   Entry& entry = entries_.at(slot);
   CORE_CHECK(entry.b != nullptr, "a pair that is tracked has owners", slot.value());
   if (entry.waits_in != nullptr) Unlink(slot);
-  Leave(entry.a);
+  if (entry.a != entry.b) Leave(entry.a);
   Leave(entry.b);
   entry = Entry();
 }
@@ -167,7 +168,7 @@ void OwnerQueues::Validate() const {
     const Entry& entry = entries_[PairSlot(k)];
     if (entry.b == nullptr) continue;
     ++pairs[entry.a];
-    ++pairs[entry.b];
+    if (entry.a != entry.b) ++pairs[entry.b];
     if (entry.waits_in == nullptr) continue;
     CORE_CHECK(entry.waits_in == entry.a || entry.waits_in == entry.b,
                "a pair waits in the queue of one of its owners", k);

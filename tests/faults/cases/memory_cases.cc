@@ -25,7 +25,7 @@ namespace {
 constexpr std::int64_t kLap = 10 * kSecond;
 
 /// What a client remembers of a pair: a node of RevisionFilter's map.
-constexpr std::int64_t kRememberedPair = 152;
+constexpr std::int64_t kRememberedPair = 160;
 
 /// Laps from `first` up to, not including, `end`. The way back to the beginning of one is a jump.
 Motion InLaps(const Motion& lap, int first, int end) {

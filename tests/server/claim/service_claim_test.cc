@@ -194,6 +194,37 @@ TEST(ServiceClaim, ATermThatSimulatorsFollowCountsUnlessItIsTheGreatest) {
   EXPECT_EQ(former.phase(), ClaimPhase::kYielded);
 }
 
+// Its status may come more rarely than others fall silent; the network tells when it has ended.
+TEST(ServiceClaim, AStandbyForgetsNoServiceThatServesWhenAnotherOneStarts) {
+  ClaimOptions options = Options(5);
+  options.stands_by = true;
+  ServiceClaim claim(options);
+  claim.Update(0);
+  claim.Hear({.instance = 1, .term = 3, .phase = OtherPhase::kServing, .sequence = 1}, 0);
+  claim.Update(0);
+  ASSERT_EQ(claim.phase(), ClaimPhase::kStandby);
+  claim.Hear({.instance = 9, .term = 3, .phase = OtherPhase::kStandby, .sequence = 1},
+             10 * kSecond);
+  claim.Update(10 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kStandby);
+  claim.HearEnd(1);
+  claim.Update(10 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
+}
+
+TEST(ServiceClaim, AnImplausibleTermOfASimulatorDoesNotCount) {
+  ServiceClaim claim(Options(5, 7));
+  claim.HearOfTerm(7 + kTermLeapMax + 1);
+  claim.Update(0);
+  claim.Update(kSecond);
+  EXPECT_EQ(claim.term(), 8u);
+  ServiceClaim other(Options(5, 7));
+  other.HearOfTerm(7 + kTermLeapMax);
+  other.Update(0);
+  other.Update(kSecond);
+  EXPECT_EQ(other.term(), 8 + kTermLeapMax);
+}
+
 // What the other one has written last may still be on its way.
 TEST(ServiceClaim, TheWorldIsContendedThoughTheOtherServiceHasEnded) {
   ServiceClaim claim = Serving(5);

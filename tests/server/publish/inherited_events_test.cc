@@ -47,6 +47,19 @@ TEST(InheritedEvents, WhatWasToldIsNotInherited) {
   EXPECT_TRUE(after.TakeUntold().empty());
 }
 
+// The other service may have ended before readers had its last words.
+TEST(InheritedEvents, TheNewestContactsAreToldOnceMore) {
+  InheritedEvents events;
+  for (std::uint32_t i = 0; i <= InheritedEvents::kRepeatedMax; ++i) {
+    events.Hear(Told(i + 1, v1::EVENT_CONFIRMED, 100 * i));
+    events.Hear(Told(i + 1, v1::EVENT_POSSIBLE, 100 * i));
+  }
+  const std::vector<v1::CollisionEvent> told = events.TakeTold();
+  ASSERT_EQ(told.size(), InheritedEvents::kRepeatedMax);
+  EXPECT_EQ(told.front().contact(), 2u);
+  EXPECT_TRUE(events.TakeTold().empty());
+}
+
 TEST(InheritedEvents, WhatWasNotToldIs) {
   InheritedEvents events;
   events.Hear(Told(1, v1::EVENT_CONFIRMED, 100));

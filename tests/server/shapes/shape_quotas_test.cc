@@ -103,8 +103,8 @@ class Gate final : public TreeStore {
   std::optional<sphere_tree::SphereTree> Load(const std::string& hash,
                                               const geometry::TriangleMesh&) override {
     std::unique_lock lock(mutex_);
-    asked_.insert(hash);
-    const std::size_t turn = ++asked_ever_;
+    asked_.push_back(hash);
+    const std::size_t turn = asked_.size();
     changed_.notify_all();
     changed_.wait(lock, [&] { return turn <= opened_; });
     return std::nullopt;
@@ -115,11 +115,10 @@ class Gate final : public TreeStore {
   /// Lets so many workers in all go on; returns what the next three ask for.
   std::set<std::string> Open(std::size_t opened) {
     std::unique_lock lock(mutex_);
-    asked_.clear();
     opened_ = opened;
     changed_.notify_all();
-    changed_.wait(lock, [&] { return asked_ever_ == opened + 3; });
-    return asked_;
+    changed_.wait(lock, [&] { return asked_.size() == opened + 3; });
+    return {asked_.end() - 3, asked_.end()};
   }
   void OpenForAll() {
     const std::lock_guard lock(mutex_);
@@ -130,8 +129,7 @@ class Gate final : public TreeStore {
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::set<std::string> asked_;
-  std::size_t asked_ever_ = 0;
+  std::vector<std::string> asked_;  // each time
   std::size_t opened_ = 0;
 };
 

@@ -74,15 +74,15 @@ TEST_F(RevisionFilterTest, WhatIsRepeatedIsKnownThoughTheNextForecastWasFaster) 
   EXPECT_TRUE(IsNew(Event(2, 1, v1::EVENT_POSSIBLE)));
   EXPECT_TRUE(IsNew(Event(1, 5, v1::EVENT_ENDED, 2)));
   contacts_.Restart();
+  v1::CollisionEvent forecast = Event(2, 1, v1::EVENT_POSSIBLE);
+  forecast.mutable_stamp()->set_service_id(2);
+  EXPECT_FALSE(IsNew(forecast));
   std::uint64_t sequence = 0;
   for (const auto status : {v1::EVENT_CONFIRMED, v1::EVENT_ENDED}) {
     v1::CollisionEvent repeated = Event(1, 5, status, ++sequence);
     repeated.mutable_stamp()->set_service_id(2);
     EXPECT_FALSE(IsNew(repeated)) << status;
   }
-  v1::CollisionEvent forecast = Event(2, 1, v1::EVENT_POSSIBLE);
-  forecast.mutable_stamp()->set_service_id(2);
-  EXPECT_FALSE(IsNew(forecast));
   v1::CollisionEvent next = Event(2, 2, v1::EVENT_CONFIRMED, ++sequence);
   next.mutable_stamp()->set_service_id(2);
   next.mutable_begin()->set_earliest_ns(5);
