@@ -214,9 +214,8 @@ class Daemon::Implementation {
         if (before == ClaimPhase::kWaking) return;
         BeginTerm();
         if (before != ClaimPhase::kStandby) return;
-        // Everybody is told anew what holds.
         world_.TakeOver();
-        reports_ = {};
+        reports_ = {};  // everybody is told anew what holds
         return publisher_.PublishInherited(world_);
       case ClaimPhase::kStandby:
         bus_.EndHold(false);
