@@ -4,7 +4,6 @@
 #include <iterator>
 
 namespace collision::server {
-namespace {
 
 detection::AgentId IdOf(const v1::AgentId& wire) {
   return {.simulator = wire.simulator_id(),
@@ -12,6 +11,8 @@ detection::AgentId IdOf(const v1::AgentId& wire) {
           .run = wire.run(),
           .generation = wire.generation()};
 }
+
+namespace {
 
 /// Of a contact [ns].
 struct Times {

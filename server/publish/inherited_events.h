@@ -13,6 +13,8 @@
 
 namespace collision::server {
 
+detection::AgentId IdOf(const v1::AgentId& wire);
+
 /// Compares the contacts that a standby finds with those that the service in force publishes, so
 /// that after a take-over none is lost and none is told as another one.
 ///

@@ -122,7 +122,10 @@ void Publisher::NoteEvents(const std::vector<detection::CollisionEvent>& events,
 
 void Publisher::PublishInherited(const World& world) {
   std::set<std::pair<detection::AgentId, detection::AgentId>> told;
-  for (v1::CollisionEvent& contact : inherited_.TakeTold()) PublishContact(std::move(contact));
+  for (v1::CollisionEvent& contact : inherited_.TakeTold()) {
+    told.insert({IdOf(contact.lower()), IdOf(contact.higher())});
+    PublishContact(std::move(contact));
+  }
   for (const detection::CollisionEvent& contact : inherited_.TakeUntold()) {
     told.insert({contact.lower, contact.higher});
     Publish({contact, true}, world);

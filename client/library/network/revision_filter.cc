@@ -18,11 +18,16 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
       event.begin().earliest_ns(), event.begin().latest_ns()};
   const bool repeated = known != nullptr && IsRepeated(event, *known);
   if (known != nullptr && !repeated && IsOutdated(event, *known)) {
-    // A contact is history: it counts, however late it comes.
-    if (is_contact && event.contact() >= known->last_contact.contact) {
-      known->last_contact = revision;
-    }
-    return is_contact;
+    if (!is_contact) return false;
+    // A contact is history: it counts, however late it comes, but once.
+    Revision& last = known->last_contact;
+    const bool says_the_same = revision.service == last.service &&
+                               revision.contact == last.contact && revision.status == last.status &&
+                               revision.begin_earliest_ns == last.begin_earliest_ns &&
+                               revision.begin_latest_ns == last.begin_latest_ns;
+    if (says_the_same) return false;
+    if (revision.contact >= last.contact) last = revision;
+    return true;
   }
   if (repeated && is_contact) {
     ++contacts_repeated_;

@@ -64,9 +64,15 @@ TEST_F(RevisionFilterTest, AnotherServiceRepeatsWhatIsKnownAndCountsAnew) {
   v1::CollisionEvent repeated = Event(1, 4, v1::EVENT_CONFIRMED, 1);
   repeated.mutable_stamp()->set_service_id(2);
   EXPECT_FALSE(IsNew(repeated));
-  v1::CollisionEvent anew = Event(1, 1, v1::EVENT_CONFIRMED, 2);
+  v1::CollisionEvent anew = Event(1, 1, v1::EVENT_ENDED, 2);
   anew.mutable_stamp()->set_service_id(2);
   EXPECT_TRUE(IsNew(anew));
+}
+
+TEST_F(RevisionFilterTest, WhatOneServiceSaysTwiceIsToldOnce) {
+  EXPECT_TRUE(IsNew(Event(1, 4, v1::EVENT_CONFIRMED, 1)));
+  EXPECT_FALSE(IsNew(Event(1, 4, v1::EVENT_CONFIRMED, 2)));
+  EXPECT_TRUE(IsNew(Event(1, 5, v1::EVENT_ENDED, 3)));
 }
 
 TEST_F(RevisionFilterTest, WhatIsRepeatedIsKnownThoughTheNextForecastWasFaster) {
