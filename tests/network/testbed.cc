@@ -182,7 +182,9 @@ void Testbed::AwaitQuiet() {
     const std::size_t before = std::exchange(events, heard.observations.events.size());
     return events > before;
   };
+  const auto deadline = steady_clock::now() + kPatience;
   while (Await(more, quiet)) {
+    if (steady_clock::now() >= deadline) throw std::runtime_error("events never end" + Logs());
   }
 }
 
@@ -198,12 +200,12 @@ void Testbed::AwaitContacts(std::size_t count) {
 Flown Testbed::Finish() {
   if (!Await([&](const Heard& heard) { return heard.now_ns >= end_ns(); }))
     throw std::runtime_error("the flight did not come to its end" + Logs());
+  AwaitQuiet();
   return FinishNow();
 }
 
 Flown Testbed::FinishNow() {
   Flown flown;
-  AwaitQuiet();
   const auto end = [&](Party party) {
     if (!processes_.at(party)) return;
     process(party).Signal(SIGTERM);
