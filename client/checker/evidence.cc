@@ -91,7 +91,11 @@ void Evidence::Sort(const v1::CollisionEvent& event) {
   EventHistory& history = histories_[index];
   // Contacts and forecasts come through two topics: an older revision may come later.
   if (history.announced.IsAfter(moment)) history.announced = moment;
-  if (!history.revisions.empty() && event.revision() <= history.last().revision()) return;
+  // A service that takes over counts them anew.
+  const auto number = [](const v1::CollisionEvent& of) {
+    return std::pair(of.stamp().term(), of.revision());
+  };
+  if (!history.revisions.empty() && number(event) <= number(history.last())) return;
   const bool confirmed = IsConfirmed(event);
   if (confirmed && !history.confirmed) history.confirmed = moment;
   if (IsFinal(event.status()) && !history.closed) history.closed = moment;

@@ -55,7 +55,7 @@ struct EventHistory {
   Moment announced;                           ///< The first revision.
   std::optional<Moment> confirmed;            ///< The first that was confirmed.
   std::optional<Moment> closed;               ///< The first that was final.
-  std::vector<v1::CollisionEvent> revisions;  ///< As received; the highest revision last.
+  std::vector<v1::CollisionEvent> revisions;  ///< As received; the newest last.
 
   const v1::CollisionEvent& last() const { return revisions.back(); }
 };

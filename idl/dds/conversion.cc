@@ -155,7 +155,8 @@ FIELDS(ServiceStatus,
        VALUE(simulated_clock) VALUE(now_ns) VALUE(granted_until_ns) VALUE(lease_ns) VALUE(agents)
        VALUE(pairs_tracked) LIST(simulators, wire::kStatusSimulatorsMax)
        LIST(counters, wire::kStatusCountersMax) TEXT(broad_phase) TEXT(broad_phase_why)
-       LIST(left_out, wire::kStatusLeftOutMax) LIST(extensions, wire::kStatusExtensionsMax))
+       LIST(left_out, wire::kStatusLeftOutMax) LIST(extensions, wire::kStatusExtensionsMax)
+       VALUE(followers))
 // clang-format on
 
 }  // namespace
@@ -206,6 +207,9 @@ void FromWire(TopicId topic, const void* wire, v1::Input* input) {
       heard.set_sequence(status.stamp.sequence);
       heard.set_phase(static_cast<v1::ServicePhase>(status.phase));
       heard.set_granted_until_ns(status.granted_until_ns);
+      heard.set_followed(status.followers > 0);
+      heard.set_now_ns(status.now_ns);
+      heard.set_agents(status.agents);
       return;
     }
     case TopicId::kContact:

@@ -60,7 +60,9 @@ class Builder {
     for (const TopicRow& row : Topics()) {
       if (row.source != source) continue;
       if (row.id == TopicId::kEarliestIntersection && !earliest) continue;
-      Read(row, subscriber, ReaderQos(row), listener, inbox);
+      // Of a service its status tells.
+      const bool listens = source != Source::kService || row.id == TopicId::kServiceStatus;
+      Read(row, subscriber, ReaderQos(row), listens ? listener : nullptr, inbox);
     }
   }
 
@@ -130,7 +132,7 @@ Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
   const auto& [of_simulators, of_service, earliest, of_other_services, events_too, as_simulator,
                as_service, of_operators, as_operator] = partitions;
   if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener, inbox);
-  if (of_service) builder.Read(Source::kService, *of_service, nullptr, nullptr, earliest);
+  if (of_service) builder.Read(Source::kService, *of_service, listener, nullptr, earliest);
   if (of_other_services) builder.ReadOtherServices(*of_other_services, events_too, listener);
   if (as_service) builder.Write(Source::kService, *as_service);
   if (as_simulator) builder.Write(Source::kSimulators, *as_simulator);

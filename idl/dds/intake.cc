@@ -139,9 +139,11 @@ std::size_t Intake::Take(dds_entity_t reader, const TopicRow& row, std::size_t l
       if (!loan.info(i).valid_data) continue;
       if (outputs == nullptr) {
         FromWire(row.id, loan.sample(i), &inputs->emplace_back());
-        if (row.id == TopicId::kServiceStatus) FollowService(loan.info(i), inputs);
       } else if (Wanted(row, loan.sample(i))) {
         FromWire(row.id, loan.sample(i), &outputs->emplace_back());
+      }
+      if (row.id == TopicId::kServiceStatus) {
+        FollowService(loan.sample(i), loan.info(i), inputs);
       }
     }
   }
@@ -173,10 +175,12 @@ void Intake::ReceiveData(TopicId topic, const void* sample, std::uint64_t sender
   }
 }
 
-/// The last of `inputs` is a status of it.
-void Intake::FollowService(const dds_sample_info_t& info, std::vector<v1::Input>* inputs) {
-  const v1::ServiceHeard& heard = inputs->back().service_heard();
-  services_[info.publication_handle] = heard;
+/// `sample` is its status.
+void Intake::FollowService(const void* sample, const dds_sample_info_t& info,
+                           std::vector<v1::Input>* inputs) {
+  v1::Input heard;
+  FromWire(TopicId::kServiceStatus, sample, &heard);
+  services_[info.publication_handle] = heard.service_heard();
   // A status may outlast its writer in the reader: its end comes after it.
   if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) EndService(info.publication_handle, inputs);
 }

@@ -51,7 +51,7 @@ class Intake {
                    std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs);
 
   /// Reports each program that left, fell silent or is back, for every simulator for which it has
-  /// spoken, and each other service that left or fell silent, or, with its last status again, is
+  /// spoken, and each service, other than its own, that left or fell silent, or, with its last status again, is
   /// back. Call it after Take(): what a program wrote comes before the report of its end.
   void Follow(const std::vector<WriterChange>& changes, std::vector<v1::Input>* inputs);
 
@@ -59,7 +59,8 @@ class Intake {
   void Receive(const ArrivedSample& arrived, std::vector<v1::Input>* inputs);
   void ReceiveData(TopicId topic, const void* sample, std::uint64_t sender,
                    std::vector<v1::Input>* inputs);
-  void FollowService(const dds_sample_info_t& info, std::vector<v1::Input>* inputs);
+  void FollowService(const void* sample, const dds_sample_info_t& info,
+                     std::vector<v1::Input>* inputs);
   void EndService(dds_instance_handle_t writer, std::vector<v1::Input>* inputs);
   bool Wanted(const TopicRow& row, const void* sample) const;
 

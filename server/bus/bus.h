@@ -28,9 +28,6 @@ class Bus {
   /// This simulator is not there any more, nor will what was published to it be asked for.
   virtual void Forget(std::uint64_t simulator_id) { static_cast<void>(simulator_id); }
 
-  /// Whether something that was published is held back: see HoldAfter().
-  virtual bool holds() const { return false; }
-
   /// Sends everything published so far. Called at the end of each step, and with a wall clock also
   /// after the events of the step.
   virtual void Flush() = 0;

@@ -37,7 +37,6 @@ class DdsBus final : public Bus {
 
   void Forget(std::uint64_t simulator_id) override { session_.ForgetSimulator(simulator_id); }
   void Flush() override;
-  bool holds() const override { return holds_; }
   void HoldAfter(std::chrono::nanoseconds standstill) override { standstill_ = standstill; }
   void EndHold(bool publish) override;
   void Wake() override;

@@ -13,7 +13,8 @@ inline HeardService HeardOf(const v1::ServiceHeard& heard) {
   return {.instance = heard.service_id(),
           .term = heard.term(),
           .phase = phase,
-          .sequence = heard.sequence()};
+          .sequence = heard.sequence(),
+          .followed = heard.followed()};
 }
 
 }  // namespace collision::server

@@ -55,12 +55,15 @@ bool ServiceClaim::GoesFirst(const HeardService& other) const {
     return other.phase == OtherPhase::kServing || stands_by || other.instance < options_.instance;
   }
   if (other.phase != OtherPhase::kServing) return false;
+  // Who wakes up knows of followers from before.
+  if (phase_ != ClaimPhase::kWaking && other.followed != followed_) return other.followed;
   return other.term != term_ ? other.term > term_ : other.instance < options_.instance;
 }
 
 void ServiceClaim::Yield(const HeardService& other, const std::string& why) {
   standby_term_ = other.phase == OtherPhase::kServing ? other.term : kUnknownTerm;
-  phase_ = options_.stands_by ? ClaimPhase::kStandby : ClaimPhase::kYielded;
+  const bool stands_by = options_.stands_by && phase_ == ClaimPhase::kClaiming;
+  phase_ = stands_by ? ClaimPhase::kStandby : ClaimPhase::kYielded;
   why_ = why;
 }
 
@@ -70,11 +73,24 @@ bool ServiceClaim::HasStandby() const {
   });
 }
 
-void ServiceClaim::WakeUp(std::int64_t now_ns) {
+std::optional<std::int64_t> ServiceClaim::standstill_ns() const {
+  if (phase_ == ClaimPhase::kStandby) return options_.waking_ns / 2;
+  if (phase_ != ClaimPhase::kServing) return std::nullopt;
+  if (options_.stands_by || HasStandby()) return options_.waking_ns / 2;
+  return options_.wait_ns > 0 ? std::optional(options_.wait_ns) : std::nullopt;
+}
+
+void ServiceClaim::WakeUp(std::int64_t gap_ns, std::int64_t now_ns) {
+  const std::optional<std::int64_t> standstill = standstill_ns();
+  if (!standstill || gap_ns <= *standstill) return;
   woke_ns_ = now_ns;
-  if (!IsReplaceable()) return;
-  phase_ = ClaimPhase::kWaking;
-  since_ns_ = now_ns;
+  if (phase_ == ClaimPhase::kServing) {
+    phase_ = ClaimPhase::kWaking;
+    since_ns_ = now_ns;
+  } else if (gap_ns > kStaleAfterNs) {
+    phase_ = ClaimPhase::kYielded;
+    why_ = fmt::format("stood still for {:.1f} s while it stood by", 1e-9 * double(gap_ns));
+  }
 }
 
 /// What the network said on waking, it said of the time in which this process heard nothing.

@@ -20,6 +20,7 @@ struct HeardService {
   std::uint32_t term = 0;  ///< As ServiceClaim::term().
   OtherPhase phase = OtherPhase::kClaiming;
   std::uint64_t sequence = 0;  ///< Of the sample.
+  bool followed = true;        ///< Serving: simulators have told clocks that name it.
 };
 
 enum class ClaimPhase {
@@ -36,27 +37,28 @@ struct ClaimOptions {
   std::int64_t wait_ns = 0;       ///< How long it listens; longer than discovery takes.
   std::int64_t heard_for_ns = 0;  ///< How long a status counts as a sign of life: its lease.
   bool stands_by = false;         ///< Beside another service it waits for its end, and takes over.
-  std::int64_t waking_ns = 0;     ///< How long it listens after it has stood still.
+  std::int64_t waking_ns = 0;     ///< How long it listens after it has stood still: its lease.
   /// Whom the service before this one served, as the journal has it.
   std::vector<JournalledSimulator> roster = {};
 };
 
 /// A service's claim to its world. Of the services that serve one world at most one stays: a
 /// newcomer ends beside a live one, of two newcomers the one with the lower instance goes on, and
-/// of two that serve, because the network had parted them, the one with the higher term (of equal
-/// terms the lower instance). A term is the highest heard or remembered + 1; at the greatest number
-/// it stays there, and the instance alone decides.
+/// of two that serve, because the network had parted them, the one that simulators follow, or else
+/// the one with the higher term (of equal terms the lower instance). A term is the highest heard or
+/// remembered + 1; at the greatest number it stays there, and the instance alone decides.
 ///
 /// Whoever serves yields only to a service that it has heard twice, so that one stray sample ends
-/// nobody.
+/// nobody. Who has served and yields does not come back: what it knows of the world is its own
+/// version of it. A process that is to stand by again starts afresh.
 ///
 /// **Standby.** With `stands_by` it does not end: it takes over, in a new term, when the network
 /// says that the one that serves is gone (HearEnd()). Of several standbys the one does that came in
 /// the lowest term, of these the one with the lowest instance; the others do if it has not within
-/// heard_for_ns. A service that stood still may have been replaced meanwhile: WakeUp() keeps it
-/// from publishing anything before it has listened, and it then yields to one that it hears once.
-/// A standby that stood still has heard nothing of the one that serves: WakeUp() keeps it from
-/// taking over before it has listened. Whoever has yielded stands by again.
+/// heard_for_ns. A service that stood still for standstill_ns() may have been replaced meanwhile:
+/// WakeUp() keeps it from publishing anything before it has listened, and it then yields to one that
+/// it hears once. A standby that stood still has heard nothing of the one that serves: WakeUp()
+/// keeps it from taking over before it has listened; after kStaleAfterNs it yields.
 ///
 /// Pure bookkeeping: it reads no clock; times are nanoseconds of the monotonic one. One
 /// thread.
@@ -71,11 +73,21 @@ class ServiceClaim {
   /// heard again, with the status that it wrote last.
   void HearEnd(std::uint64_t instance) { others_.erase(instance); }
 
-  /// This process stood still. Does nothing unless it stands by, or serves and has heard a standby.
-  void WakeUp(std::int64_t now_ns);
+  /// This process has stood still for so long. Shorter than standstill_ns() changes nothing.
+  void WakeUp(std::int64_t gap_ns, std::int64_t now_ns);
 
-  /// Whether it must be told soon when this process stood still for half a lease.
-  bool NeedsWakeUp() const { return phase_ == ClaimPhase::kStandby || HasStandby(); }
+  /// What makes a difference: half a lease where a standby may take over, else the time in which a
+  /// service that starts claims a world that it finds empty; nullopt: nothing does.
+  std::optional<std::int64_t> standstill_ns() const;
+
+  /// What it publishes after so long a standstill within a step is to be held back; 0: nothing is.
+  std::int64_t hold_after_ns() const {
+    return phase_ == ClaimPhase::kServing ? standstill_ns().value_or(0) : 0;
+  }
+
+  /// Whether simulators follow this service, as its next status says.
+  void SetFollowed(bool followed) { followed_ = followed; }
+  bool followed() const { return followed_; }
 
   /// A simulator follows, or has followed, a service of this term, which may be gone or stand
   /// still: this one goes before it, once it serves. Who leaps by more than kTermLeapMax beyond
@@ -94,9 +106,6 @@ class ServiceClaim {
 
   /// It does all the work of a service, whether it publishes it or not.
   bool works() const { return phase_ == ClaimPhase::kServing || phase_ == ClaimPhase::kStandby; }
-
-  /// It serves, and another service stands by for it.
-  bool IsReplaceable() const { return phase_ == ClaimPhase::kServing && HasStandby(); }
 
   /// kYielded, kStandby: the other service, in words for the log and standard error.
   const std::string& why() const { return why_; }
@@ -133,6 +142,7 @@ class ServiceClaim {
   std::optional<std::int64_t> since_ns_;      ///< Of the claim, or of the waking.
   std::optional<std::int64_t> contended_ns_;  ///< Serving: when it last was, though that one ended.
   std::optional<std::int64_t> woke_ns_;
+  bool followed_ = false;
   std::optional<std::int64_t> vacant_ns_;  ///< Since when nobody serves; while it stands by.
   std::uint32_t term_ = 0;
   std::uint32_t standby_term_ = 0;
@@ -144,6 +154,10 @@ class ServiceClaim {
 /// So long after another service was heard, what this one says may still be overwritten by what
 /// that one wrote: longer than a message is on its way on any network.
 inline constexpr std::int64_t kContendedForNs = 60'000'000'000;
+
+/// A standby that has heard nothing for so long starts afresh: others may have given it up, and what
+/// ended meanwhile is told to nobody any more.
+inline constexpr std::int64_t kStaleAfterNs = 5'000'000'000;
 
 /// Services that may have come and gone unheard, and each served a simulator in a term of its own.
 inline constexpr std::uint32_t kTermLeapMax = 4096;

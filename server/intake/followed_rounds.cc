@@ -26,7 +26,7 @@ bool IsOf(const v1::Input& input, std::uint64_t simulator) {
 }  // namespace
 
 void FollowedRounds::StandBy(Instant granted) {
-  world_.StandBy(std::max(granted, newest_clock_));
+  world_.StandBy(granted);
   follows_ = true;
 }
 
@@ -44,7 +44,7 @@ void FollowedRounds::Apply(const v1::Input& input) {
   kept_.push_back(input);
   kept_bytes_ += bytes;
   if (!input.has_simulator_clock()) return;
-  newest_clock_ = std::max(newest_clock_, time);
+  world_.HearGranted(time);
   intake_.NoteFollower(input.simulator_clock());
 }
 
@@ -104,7 +104,6 @@ void FollowedRounds::TakeToClock(std::uint64_t simulator) {
 void FollowedRounds::Clear() {
   kept_.clear();
   kept_bytes_ = 0;
-  newest_clock_ = Instant::Always();
 }
 
 }  // namespace collision::server

@@ -50,7 +50,6 @@ class FollowedRounds {
   Intake& intake_;
   std::deque<v1::Input> kept_;
   std::size_t kept_bytes_ = 0;
-  Instant newest_clock_ = Instant::Always();  ///< The greatest one that was kept.
   bool follows_ = false;
 };
 

@@ -109,15 +109,20 @@ std::vector<Telling> Publisher::Filter(const std::vector<detection::CollisionEve
 
 void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events,
                               const World& world) {
-  for (const Telling& telling : Filter(events, world)) Publish(telling, world);
-  if (!world.simulated()) bus_.Flush();
+  for (const Telling& telling : Filter(events, world)) {
+    if (speaks()) {
+      Publish(telling, world);
+    } else if (telling.contact) {
+      inherited_.Keep(telling.event);
+    }
+  }
+  if (speaks() && !world.simulated()) bus_.Flush();
 }
 
-void Publisher::NoteEvents(const std::vector<detection::CollisionEvent>& events,
-                           const World& world) {
-  for (const Telling& telling : Filter(events, world)) {
-    if (telling.contact) inherited_.Keep(telling.event);
-  }
+void Publisher::BeginToSpeak(const World& world) {
+  if (!is_unheard_ || world.followers() == 0) return;
+  is_unheard_ = false;
+  PublishInherited(world);
 }
 
 void Publisher::PublishInherited(const World& world) {

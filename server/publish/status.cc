@@ -232,6 +232,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   AddWaiting(sources, &status);
   AddEvicted(sources.world, &status);
   AddQuotas(sources, &status);
+  status.set_followers(static_cast<std::uint32_t>(sources.world.followers()));
   for (const v1::KeyValue& extension : sources.extensions) *status.add_extensions() = extension;
   return status;
 }

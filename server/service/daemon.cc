@@ -12,6 +12,7 @@
 #include "server/bus/batch_order.h"
 #include "server/bus/full_batches.h"
 #include "server/claim/heard_service.h"
+#include "server/claim/standby_readiness.h"
 #include "server/config/config.h"
 #include "server/intake/followed_rounds.h"
 #include "server/intake/intake.h"
@@ -100,7 +101,7 @@ class Daemon::Implementation {
     // Otherwise there is a step for each status at least.
     const std::int64_t gap_ns = world_.monotonic_ns() - before_ns;
     if (gap_ns > ToNanoseconds(config_.status_period_s()) + kStoodStill) world_.WakeUp();
-    if (gap_ns > Standstill() || bus_.holds()) claim_.WakeUp(world_.monotonic_ns());
+    claim_.WakeUp(gap_ns, world_.monotonic_ns());
     if (claim_.phase() == ClaimPhase::kServing) bus_.EndHold(true);
     if (!Claim(inputs)) return false;
     if (clock_step_) FollowStep(*clock_step_);
@@ -112,6 +113,7 @@ class Daemon::Implementation {
     full_batches_.Take(inputs, config_.inputs_per_batch_max());
     if (!full_batches_.holds_clocks()) intake_.TakeClocks();
     rounds_.ApplyKept();
+    publisher_.BeginToSpeak(world_);
     const bool restarts = claim_.works() && operators_.ObeyAll(inputs);
     if (operators_.TakeNews()) schedule_.Hasten();
     const bool removed = RemoveSilent();
@@ -120,10 +122,10 @@ class Daemon::Implementation {
     if (restarts) EndEpoch("an operator restarts time");
     if (claim_.works() && world_.EpochIsOver()) EndEpoch("no simulator holds time any more");
     intake_.EndBatch();
-    if (claim_.phase() == ClaimPhase::kServing) {
+    if (publisher_.speaks()) {
       if (!KeepState(journal_.Keep(world_))) return false;
       PublishAnswers();
-    } else {
+    } else if (claim_.phase() != ClaimPhase::kServing) {
       static_cast<void>(rejections_.Take());
     }
     PublishStatus();
@@ -144,25 +146,23 @@ class Daemon::Implementation {
     if (claim_.works() && world_.RunsInRounds() && NextRound()) {
       return std::chrono::nanoseconds(0);
     }
-    const bool serves = claim_.phase() == ClaimPhase::kServing;
     std::int64_t due = schedule_.next_ns();
-    if (claim_.phase() == ClaimPhase::kWaking) due = world_.monotonic_ns() + Standstill();
+    if (claim_.phase() == ClaimPhase::kWaking) due = *claim_.NextDue();
     if (const auto next = intake_.NextDue()) due = std::min(due, *next);
     if (const auto next = world_.NextRelease()) due = std::min(due, *next);
-    if (const auto next = world_.NextRevision(); next && serves) due = std::min(due, *next);
+    if (const auto next = world_.NextRevision(); next && publisher_.speaks())
+      due = std::min(due, *next);
     if (const auto next = claim_.NextDue()) due = std::min(due, *next);
-    if (const auto next = reports_.next_ns(); next && serves) due = std::min(due, *next);
+    if (const auto next = reports_.next_ns(); next && publisher_.speaks())
+      due = std::min(due, *next);
     std::int64_t wait = due - world_.monotonic_ns();
     if (!world_.simulated()) {
       const int slices = detector_.pairs_waiting() > 0 ? kSlicesPerResolution : 1;
       wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()) / slices);
     }
-    if (claim_.NeedsWakeUp()) wait = std::min(wait, Standstill() / 2);
+    if (const auto standstill = claim_.standstill_ns()) wait = std::min(wait, *standstill / 2);
     return std::chrono::nanoseconds(std::max<std::int64_t>(wait, 0));
   }
-
-  /// A service that stands still for so long [ns] may be replaced before it has noticed it.
-  std::int64_t Standstill() const { return ToNanoseconds(config_.lease_s()) / 2; }
 
   /// Takes the time of this step and records what it applies. False: it could not be recorded, and
   /// that is to end the service.
@@ -181,12 +181,11 @@ class Daemon::Implementation {
     const std::int64_t now_ns = world_.monotonic_ns();
     for (const v1::Input& input : inputs) {
       if (input.has_simulator_clock()) claim_.HearOfTerm(input.simulator_clock().service_term());
-      if (input.has_event_heard() && claim_.phase() != ClaimPhase::kServing) {
-        publisher_.Hear(input.event_heard());
-      }
+      if (input.has_event_heard() && !publisher_.speaks()) publisher_.Hear(input.event_heard());
       if (input.has_service_heard()) HearService(input.service_heard());
     }
     const ClaimPhase before = claim_.phase();
+    claim_.SetFollowed(world_.followers() > 0);
     claim_.Update(now_ns);
     for (const std::string& conflict : claim_.Conflicts(now_ns)) {
       Log(spdlog::level::warn, "two services in one world", conflict);
@@ -194,15 +193,19 @@ class Daemon::Implementation {
     intake_.SetContended(claim_.IsContended(now_ns));
     if (claim_.phase() != before) ChangePhase(before);
     if (claim_.phase() == ClaimPhase::kStandby) rounds_.StandBy(heard_granted_);
-    bus_.HoldAfter(std::chrono::nanoseconds(claim_.IsReplaceable() ? Standstill() : 0));
+    bus_.HoldAfter(std::chrono::nanoseconds(claim_.hold_after_ns()));
     return claim_.phase() != ClaimPhase::kYielded;
   }
 
   void HearService(const v1::ServiceHeard& heard) {
     if (heard.ended()) return claim_.HearEnd(heard.service_id());
     claim_.Hear(HeardOf(heard), world_.monotonic_ns());
-    if (heard.phase() == v1::PHASE_SERVING) {
-      heard_granted_ = Instant::FromNanoseconds(heard.granted_until_ns());
+    if (heard.phase() != v1::PHASE_SERVING) return;
+    heard_granted_ = Instant::FromNanoseconds(heard.granted_until_ns());
+    if (claim_.phase() == ClaimPhase::kStandby &&
+        readiness_.Hear(heard, detector_.agents(), world_.newest())) {
+      spdlog::info("is ready to take over");
+      schedule_.Hasten();
     }
   }
 
@@ -214,9 +217,10 @@ class Daemon::Implementation {
         if (before == ClaimPhase::kWaking) return;
         BeginTerm();
         if (before != ClaimPhase::kStandby) return;
+        if (!readiness_.ready()) spdlog::warn("takes over unready: contacts may be lost");
         world_.TakeOver();
         reports_ = {};  // everybody is told anew what holds
-        return publisher_.PublishInherited(world_);
+        return publisher_.TakeOver();
       case ClaimPhase::kStandby:
         bus_.EndHold(false);
         spdlog::info("{}: stands by", claim_.why());
@@ -285,7 +289,7 @@ class Daemon::Implementation {
   /// Publishes the end of what was told in this epoch, and begins the next.
   void CloseEpoch(const char* why) {
     if (claim_.works()) Detect(true);
-    if (claim_.phase() == ClaimPhase::kServing) PublishAnswers();
+    if (publisher_.speaks()) PublishAnswers();
     Log(spdlog::level::info, "epoch over",
         fmt::format("epoch {} ends at {} s: {}", world_.epoch(),
                     1e-9 * static_cast<double>(world_.now().nanoseconds()), why));
@@ -347,9 +351,6 @@ class Daemon::Implementation {
       world_.SetClearance(clearance);
     }
     world_.UpdateGrants();
-    if (claim_.phase() == ClaimPhase::kStandby) {
-      return publisher_.NoteEvents(detector_.events(), world_);
-    }
     publisher_.PublishEvents(detector_.events(), world_);
   }
 
@@ -394,6 +395,8 @@ class Daemon::Implementation {
     silence_report_.AddExtensions(&extensions);
     operators_.AddExtensions(&extensions);
     shares_.AddExtensions(&extensions);
+    const bool stands_by = claim_.phase() == ClaimPhase::kStandby;
+    if (stands_by) AddText("standby", readiness_.ready() ? "ready" : "not ready", &extensions);
     AddText("state_failure", state_failure_, &extensions);
     AddText("recording_failure", recorder_.failure(), &extensions);
     if (quarantine_ != nullptr) AddText("quarantine", quarantine_->Summary(), &extensions);
@@ -409,6 +412,7 @@ class Daemon::Implementation {
   Quarantine* const quarantine_;  ///< Null: none.
   std::string state_failure_;     ///< Empty: what must be kept is kept.
   ServiceClaim claim_;
+  StandbyReadiness readiness_;
   const std::function<bool()> progress_;  ///< As in DaemonParts.
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   World world_;

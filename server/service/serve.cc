@@ -98,7 +98,7 @@ class StatusInStep {
   Time due_ = std::chrono::steady_clock::now() + period_;
 };
 
-int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
+std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   SystemClock clock([&bus] { bus.Wake(); });
   RecordingWriter* const recorder = parts.recorder;
   const bool has_journal_later = parts.open_journal != nullptr;
@@ -140,7 +140,9 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
     service_manager.Alive(now);
     status.StepIsOver(now);
   }
-  service_manager.Stopping();
+  const bool yields = daemon.claim().phase() == ClaimPhase::kYielded;
+  const bool starts_afresh = yields && parts.claim.stands_by && !signals.stopped();
+  if (!starts_afresh) service_manager.Stopping();
   LogFingerprint(daemon.event_log());
   const bool needs_recording = config.on_recording_failure() == v1::Config::END;
   if (needs_recording && recorder && !recorder->error().empty()) {
@@ -151,7 +153,11 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   if (ends && parts.journal != nullptr && !parts.journal->error().empty()) {
     return Fail(kExitFile, "state_dir: " + parts.journal->error() + kGoOnInstead);
   }
-  if (daemon.claim().phase() == ClaimPhase::kYielded) {
+  if (starts_afresh) {
+    spdlog::warn("{}: starts afresh, to stand by", daemon.claim().why());
+    return std::nullopt;
+  }
+  if (yields && !signals.stopped()) {
     return Fail(kExitOccupied, "world \"" + config.world() + "\": " + daemon.claim().why());
   }
   return signals.stopped() ? kExitOk : Fail(kExitUnavailable, "DDS has ended");
@@ -182,8 +188,13 @@ int EndOnFailure(const std::function<int()>& run) {
   }
 }
 
-int Serve(const v1::Config& config, Bus& bus, ServiceParts parts) {
-  return EndOnFailure([&] { return ServeUntilStopped(config, bus, std::move(parts)); });
+std::optional<int> Serve(const v1::Config& config, Bus& bus, ServiceParts parts) {
+  std::optional<int> code;
+  const int failed = EndOnFailure([&] {
+    code = ServeUntilStopped(config, bus, std::move(parts));
+    return kExitOk;
+  });
+  return failed == kExitOk ? code : failed;
 }
 
 }  // namespace collision::server

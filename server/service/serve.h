@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "idl/config.pb.h"
@@ -33,12 +34,14 @@ struct ServiceParts {
 };
 
 /// Runs the daemon until SIGTERM or SIGINT, the end of the bus, a batch that cannot be recorded, a
-/// failure (EndOnFailure()), or until another service has the world. Returns the exit code.
-/// PrepareSignals() was called.
+/// failure (EndOnFailure()), or until another service has the world. Returns the exit code; nullopt:
+/// another service has the world, and this one is to stand by (`claim.stands_by`): call it again
+/// with new parts, a new bus and another instance, so that it knows nothing of its own but what the
+/// world tells. PrepareSignals() was called.
 ///
 /// A step that is not over 0.7 s after the signal is not waited for: what is recorded stays whole,
 /// and the process ends with 0 from another thread, so Serve() does not return.
-int Serve(const v1::Config& config, Bus& bus, ServiceParts parts);
+std::optional<int> Serve(const v1::Config& config, Bus& bus, ServiceParts parts);
 
 /// Returns what `run` returns. If a CheckFailure, or another std::logic_error, leaves it, there is
 /// a bug in this program: logs what failed as critical, and returns kExitSoftware. If any other

@@ -245,16 +245,22 @@ void World::RaiseInheritedGrant() {
 
 void World::StandBy(Instant granted) {
   stands_by_ = true;
+  HearGranted(granted);
+}
+
+void World::HearGranted(Instant granted) {
   if (simulated_) heard_granted_ = std::max(heard_granted_, granted);
 }
 
 void World::TakeOver() {
   stands_by_ = false;
-  for (auto& [id, simulator] : simulators_) simulator.agents().clearances().MarkAllChanged();
+  for (auto& [id, simulator] : simulators_) {
+    simulator.SetFollows(false);
+    simulator.agents().clearances().MarkAllChanged();
+  }
   if (!simulated_ || NewestClock() == Instant::Always()) return;
   std::vector<JournalledSimulator> roster;
   for (auto& [id, simulator] : simulators_) {
-    simulator.SetFollows(false);
     if (!simulator.holds_time()) continue;
     // One that is not heard may be there all the same, if this service could not hear it.
     if (!simulator.alive() && simulator.time().has_finished()) continue;
@@ -264,6 +270,14 @@ void World::TakeOver() {
   promised_from_ = granted_;
   RaiseInheritedGrant();
   ShareGrant();
+}
+
+std::size_t World::followers() const {
+  if (stands_by_) return 0;
+  return static_cast<std::size_t>(
+      std::count_if(simulators_.begin(), simulators_.end(), [](const auto& one) {
+        return one.second.alive() && one.second.follows() && !one.second.has_left();
+      }));
 }
 
 void World::EndRun(Simulator* simulator, EndCause cause) {

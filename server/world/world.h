@@ -1,6 +1,7 @@
 // The simulators of the world, which process speaks for each of them, and what time it is.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -168,11 +169,21 @@ class World {
 
   bool stands_by() const { return stands_by_; }
 
+  /// Another service has granted so much: that is its word, or a clock that a simulator has told.
+  void HearGranted(Instant granted);
+
   /// This service serves from now on, in place of the one beside which it stood by. Simulated
   /// clock: time stands until each simulator that lives and holds time has told a clock that
   /// follows this service. Until then it may act on a grant of which this service has not heard;
   /// that is at most `grant_ahead_max_s` beyond the clocks, and promises count from there.
   void TakeOver();
+
+  /// Simulators that are there and follow this service; none while it stands by. A service that has
+  /// taken over is followed again by whoever tells a clock that names it.
+  std::size_t followers() const;
+
+  /// The latest time of which this service knows, as it stands by.
+  Instant newest() const { return simulated_ ? std::max(NewestClock(), heard_granted_) : now_; }
 
   /// From when on promises count after a take-over, whatever is said of single agents; else
   /// Always().
@@ -252,7 +263,7 @@ class World {
   Widenings widenings_;
   std::optional<std::int64_t> woke_ns_;
   bool stands_by_ = false;
-  Instant heard_granted_ = Instant::Always();  ///< By the service beside which it stands by.
+  Instant heard_granted_ = Instant::Always();  ///< By another service.
   Instant promised_from_ = Instant::Always();
 };
 

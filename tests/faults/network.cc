@@ -27,6 +27,9 @@ v1::Input HeardOf(const v1::Output& output) {
   heard.set_sequence(status.stamp().sequence());
   heard.set_phase(status.phase());
   heard.set_granted_until_ns(status.granted_until_ns());
+  heard.set_followed(status.followers() > 0);
+  heard.set_now_ns(status.now_ns());
+  heard.set_agents(status.agents());
   return input;
 }
 
@@ -117,7 +120,7 @@ void Network::Write(Id id, const v1::Input& message) {
 }
 
 void Network::Write(Id id, const v1::Output& message) {
-  if (message.has_service_status()) programs_[id].service = message.service_status().service_id();
+  if (message.has_service_status()) programs_[id].service = HeardOf(message);
   Write(id,
         {.address = AddressOf(message),
          .input = nullptr,
@@ -345,12 +348,10 @@ void Network::SetAlive(Id id, Id other, bool alive) {
       input.mutable_liveliness()->set_alive(alive);
       listener.changes.push_back(input);
     }
-    if (!alive && programs_[other].service != 0) {
-      v1::Input input;
-      input.mutable_service_heard()->set_service_id(programs_[other].service);
-      input.mutable_service_heard()->set_ended(true);
-      listener.changes.push_back(input);
-    }
+  }
+  if (tells && programs_[other].service) {
+    listener.changes.push_back(*programs_[other].service);
+    if (!alive) listener.changes.back().mutable_service_heard()->set_ended(true);
   }
   if (listener.arrived) listener.arrived();
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <queue>
 #include <set>
 #include <tuple>
@@ -141,7 +142,7 @@ class Network {
   struct Program {
     Role role = Role::kMonitor;
     std::uint64_t simulator = 0;
-    std::uint64_t service = 0;  ///< Its id, once it has told its status.
+    std::optional<v1::Input> service;  ///< Its last status, as others hear of it.
     bool gone = false, reads_events = false;
     std::function<void()> arrived;
     std::map<Topic, Writer> writers;

@@ -113,7 +113,10 @@ void ServiceProgram::Step() {
     yielded_ = true;
     const Network::Id id = bus_->id();
     End();
-    return network_.Leave(id);
+    network_.Leave(id);
+    // As the program does: it starts afresh.
+    if (config_.on_occupied() == v1::Config::STAND_BY) Start();
+    return;
   }
   const bool idle = bus_->received() == 0 && bus_->timeout_ns() > 0;
   Wake(network_.now_ns() + (idle ? std::max(bus_->timeout_ns(), kWakingTime) : kWakingTime));

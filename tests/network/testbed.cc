@@ -75,7 +75,7 @@ Testbed::Testbed(const TestbedOptions& options)
   AwaitLog(kService, "serves world");
   if (options.standby) {
     Start(kStandby);
-    AwaitLog(kStandby, "stands by");
+    AwaitLog(kStandby, "is ready to take over");
   }
   Start(kMonitor);
   start_ns_ = options.wall_clock ? WallNow() + kUntilStart : 0;

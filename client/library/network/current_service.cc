@@ -5,11 +5,27 @@
 
 namespace collision::client {
 
-bool CurrentService::Accept(const v1::ServiceStamp& stamp, Time now) {
+bool CurrentService::GoesFirst(const v1::ServiceStamp& stamp, bool followed) const {
+  const bool own = followed_ && !ended_.contains(id_);
+  const bool others = followed && !ended_.contains(stamp.service_id());
+  if (own != others) return others;
+  return stamp.term() != term_ ? stamp.term() > term_ : stamp.service_id() < id_;
+}
+
+bool CurrentService::Hear(const v1::ServiceHeard& heard) {
+  if (!heard.ended()) {
+    ended_.erase(heard.service_id());
+    return false;
+  }
+  if (ended_.size() == kEndedMax) ended_.erase(ended_.begin());
+  ended_.insert(heard.service_id());
+  return heard.service_id() == id_;
+}
+
+bool CurrentService::Accept(const v1::ServiceStamp& stamp, Time now, bool followed) {
   if (stamp.service_id() != id_) {
-    const bool goes_first = stamp.term() != term_ ? stamp.term() > term_ : stamp.service_id() < id_;
     const bool silent = now - heard_ >= kServiceSilence;
-    if (id_ != 0 && !goes_first && !silent) {
+    if (id_ != 0 && !GoesFirst(stamp, followed) && !silent) {
       ++conflicts_;
       return false;
     }
@@ -20,6 +36,7 @@ bool CurrentService::Accept(const v1::ServiceStamp& stamp, Time now) {
   }
   term_ = stamp.term();
   epoch_ = stamp.epoch();
+  followed_ = followed;
   heard_ = now;
   return true;
 }
@@ -93,6 +110,15 @@ std::vector<v1::Output> OtherServices::Take(std::uint64_t service_id, Time now) 
     return StampOf(a).sequence() < StampOf(b).sequence();
   });
   return outputs;
+}
+
+std::vector<v1::Output> OtherServices::Statuses() const {
+  std::vector<v1::Output> statuses;
+  for (const auto& [id, said] : services_) {
+    const auto status = said.newest.find({v1::Output::kServiceStatus, {0, 0}});
+    if (status != said.newest.end()) statuses.push_back(status->second);
+  }
+  return statuses;
 }
 
 bool OtherServices::IsHeard(Time now) const {

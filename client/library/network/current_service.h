@@ -7,6 +7,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -19,10 +20,12 @@ namespace collision::client {
 /// what it promised has expired.
 inline constexpr std::chrono::nanoseconds kServiceSilence(wire::kServiceLease);
 
-/// The service in force: of those that speak the one with the highest term, of equal terms the one
-/// with the lower id. A service of a higher term takes over at once; one of a lower term when the
-/// one in force has been silent for kServiceSilence. So a term that was only a test, or a forged
-/// one, is in force no longer than it is repeated, and conflicts() tells of it.
+/// The service in force: of those that speak one that simulators follow, of several the one with the
+/// highest term, of equal terms the one with the lower id. Such a service takes over at once, unless
+/// its term is lower: then when the one in force has been silent for kServiceSilence. So a term that
+/// was only a test, or a forged one, is in force no longer than it is repeated, and conflicts()
+/// tells of it. One that nobody follows, such as a standby that has taken over, waits for the
+/// network to say that the one in force has ended: it may have lost sight of it alone.
 ///
 /// It judges each sample by its stamp, and its answers depend on nothing but the calls. One thread.
 class CurrentService {
@@ -30,8 +33,12 @@ class CurrentService {
   using Time = std::chrono::steady_clock::time_point;
 
   /// Whether the sample that carries this stamp comes from the service in force, which it may
-  /// become by it.
-  bool Accept(const v1::ServiceStamp& stamp, Time now);
+  /// become by it. `followed`: its status names followers; what else it says it says to them.
+  bool Accept(const v1::ServiceStamp& stamp, Time now, bool followed = true);
+
+  /// The network says that this service has ended, or has not kept its lease; or is back. True: it
+  /// is the one in force that has ended, and others, of which a sample was not accepted, may be now.
+  bool Hear(const v1::ServiceHeard& heard);
 
   /// Whether the sample comes from an earlier epoch of the service in force: an event is history,
   /// everything else means nothing any more.
@@ -56,9 +63,16 @@ class CurrentService {
   std::uint64_t conflicts() const { return conflicts_; }
 
  private:
+  /// Ended services that are remembered; beyond, any is forgotten.
+  static constexpr std::size_t kEndedMax = 16;
+
+  bool GoesFirst(const v1::ServiceStamp& stamp, bool followed) const;
+
   std::uint64_t id_ = 0;
   std::uint32_t term_ = 0;
   std::uint32_t epoch_ = 0;
+  bool followed_ = false;  ///< As its newest sample says.
+  std::set<std::uint64_t> ended_;
   Time heard_{};
   std::uint64_t changes_ = 0;
   std::uint64_t conflicts_ = 0;
@@ -86,6 +100,9 @@ class OtherServices {
 
   /// All that is kept of this service, in the order of its publication, and no longer kept.
   std::vector<v1::Output> Take(std::uint64_t service_id, Time now);
+
+  /// The newest status of each.
+  std::vector<v1::Output> Statuses() const;
 
   /// One of them was heard lately: samples of services are of the same keys, so those of the one in
   /// force may be overwritten unread.

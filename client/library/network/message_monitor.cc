@@ -33,7 +33,6 @@ std::size_t MessageMonitor::Poll(std::chrono::nanoseconds timeout) {
   receiver_->Receive(timeout, &arrivals);
   now_ = receiver_->Now();
   OrderEvents(&arrivals.outputs);
-  for (const v1::Input& input : arrivals.inputs) HandOn(input);
   for (const v1::Output& output : arrivals.outputs) {
     HandOn(output);
     // Reports are handed on, whoever they are from.
@@ -41,11 +40,13 @@ std::size_t MessageMonitor::Poll(std::chrono::nanoseconds timeout) {
       others_.Keep(output, now_);
     }
   }
+  // The end of a service comes after all that it wrote.
+  for (const v1::Input& input : arrivals.inputs) HandOn(input);
   GiveUpOverdue();
   return arrivals.inputs.size() + arrivals.outputs.size();
 }
 
-void MessageMonitor::HandOn(const v1::Input& input) const {
+void MessageMonitor::HandOn(const v1::Input& input) {
   switch (input.message_case()) {
     case v1::Input::kAgentDescription:
       return Call(callbacks_.description, input.agent_description());
@@ -59,6 +60,10 @@ void MessageMonitor::HandOn(const v1::Input& input) const {
       return Call(callbacks_.states, input.agent_states());
     case v1::Input::kSimulatorClock:
       return Call(callbacks_.clock, input.simulator_clock());
+    case v1::Input::kServiceHeard:
+      if (!service_.Hear(input.service_heard())) return;
+      for (const v1::Output& status : others_.Statuses()) HandOn(status);
+      return;
     default:
       return;
   }
@@ -87,7 +92,7 @@ void MessageMonitor::HandOn(const v1::Output& output) {
       if (output.service_status().phase() == v1::PHASE_STANDBY) {
         return Call(callbacks_.standby, output.service_status());
       }
-      if (!Accept(output.service_status().stamp())) return;
+      if (!Accept(output.service_status().stamp(), output.service_status().followers() > 0)) return;
       Await(output.service_status());
       return Call(callbacks_.status, output.service_status());
     case v1::Output::kSimulatorReport:
@@ -97,9 +102,9 @@ void MessageMonitor::HandOn(const v1::Output& output) {
   }
 }
 
-bool MessageMonitor::Accept(const v1::ServiceStamp& stamp) {
+bool MessageMonitor::Accept(const v1::ServiceStamp& stamp, bool followed) {
   const std::uint64_t former = service_.id();
-  if (!service_.Accept(stamp, now_)) return false;
+  if (!service_.Accept(stamp, now_, followed)) return false;
   if (service_.id() != former) {
     contacts_.Restart();
     awaited_.reset();

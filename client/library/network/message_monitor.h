@@ -58,9 +58,9 @@ class MessageMonitor {
     CurrentService::Time since;
   };
 
-  void HandOn(const v1::Input& input) const;
+  void HandOn(const v1::Input& input);
   void HandOn(const v1::Output& output);
-  bool Accept(const v1::ServiceStamp& stamp);
+  bool Accept(const v1::ServiceStamp& stamp, bool followed = true);
   void Await(const v1::ServiceStatus& status);
   void GiveUpOverdue();
 

@@ -55,6 +55,11 @@ bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
     Handle(output, now);
     if (StampOf(output).service_id() != service_.id()) others_.Keep(output, now);
   }
+  // The end of a service comes after all that it wrote.
+  for (const v1::Input& input : arrivals.inputs) {
+    if (!input.has_service_heard() || !service_.Hear(input.service_heard())) continue;
+    for (const v1::Output& status : others_.Statuses()) Handle(status, now);
+  }
   const std::uint64_t forecast = lock_step_ ? forecasts_.newest() : ClearanceGate::kAllForecasts;
   const std::vector<v1::Clearance> passed = gate_.Take(&contacts_, forecast, now);
   for (const v1::Clearance& clearance : passed) Handle(clearance);
@@ -99,12 +104,14 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
         Handle(output.simulator_report(), now);
       }
       break;
-    case v1::Output::kServiceStatus:
-      if (output.service_status().phase() != v1::PHASE_SERVING) break;
-      if (!Accept(output.service_status().stamp(), output.service_status().now_ns(), now)) break;
-      simulated_clock_ = output.service_status().simulated_clock();
-      waiting_.Take(output.service_status());
+    case v1::Output::kServiceStatus: {
+      const v1::ServiceStatus& status = output.service_status();
+      if (status.phase() != v1::PHASE_SERVING) break;
+      if (!Accept(status.stamp(), status.now_ns(), now, status.followers() > 0)) break;
+      simulated_clock_ = status.simulated_clock();
+      waiting_.Take(status);
       break;
+    }
     default:
       break;
   }
@@ -140,10 +147,10 @@ void World::Implementation::Handle(const v1::Clearance& clearance) {
 }
 
 bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t now_ns,
-                                   CurrentService::Time now) {
+                                   CurrentService::Time now, bool followed) {
   const std::uint64_t id = service_.id();
   const std::uint32_t epoch = service_.epoch();
-  if (!service_.Accept(stamp, now)) return false;
+  if (!service_.Accept(stamp, now, followed)) return false;
   if (service_.id() != id) {
     ChangeService(id);
     gate_.Clear();

@@ -146,7 +146,8 @@ class World::Implementation {
   bool IsForThis(std::uint32_t incarnation) const;
 
   /// Whether the sample is of the service in force; takes note of its time.
-  bool Accept(const v1::ServiceStamp& stamp, std::int64_t now_ns, CurrentService::Time now);
+  bool Accept(const v1::ServiceStamp& stamp, std::int64_t now_ns, CurrentService::Time now,
+              bool followed = true);
   void ChangeService(std::uint64_t former_id);
 
   /// Notes when the service in force is heard no longer, and when one is heard again.

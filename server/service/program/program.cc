@@ -10,6 +10,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <utility>
@@ -135,8 +136,7 @@ std::uint64_t DrawInstance() {
   return std::max<std::uint64_t>(high << 32 | source(), 1);
 }
 
-int Serve(const v1::Config& config, const std::string& record_file) {
-  PrepareSignals();
+std::optional<int> ServeOnce(const v1::Config& config, const std::string& record_file) {
   std::shared_ptr<TreeCache> cache;
   try {
     cache = MakeTreeCache(config);
@@ -195,6 +195,13 @@ int Serve(const v1::Config& config, const std::string& record_file) {
                 .quarantine = quarantine.get(),
                 .state_failure = std::move(state_failure),
                 .claim = claim});
+}
+
+int Serve(const v1::Config& config, const std::string& record_file) {
+  PrepareSignals();
+  for (;;) {
+    if (const std::optional<int> code = ServeOnce(config, record_file)) return *code;
+  }
 }
 
 void PrintEvent(const v1::Output& output) {

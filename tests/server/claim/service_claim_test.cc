@@ -26,6 +26,7 @@ ServiceClaim Serving(std::uint64_t instance, std::uint32_t term_before = 0) {
   ServiceClaim claim(Options(instance, term_before));
   claim.Update(0);
   claim.Update(kSecond);
+  claim.SetFollowed(true);
   EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
   return claim;
 }
@@ -118,13 +119,20 @@ TEST(ServiceClaim, OfTwoStandbysTheOneThatCameInTheLowerTermTakesOver) {
 
 TEST(ServiceClaim, OneThatStoodStillListensFirstAndYieldsToOneSample) {
   ServiceClaim claim = Serving(5);
-  claim.WakeUp(2 * kSecond);
-  EXPECT_EQ(claim.phase(), ClaimPhase::kServing) << "without a standby nobody can have taken over";
+  claim.WakeUp(kSecond, 2 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing) << "too short for another one to claim the world";
+  ServiceClaim for_long = claim;
+  for_long.WakeUp(kSecond + 1, 2 * kSecond);
+  EXPECT_EQ(for_long.phase(), ClaimPhase::kWaking);
+  claim.Hear(Heard(7, OtherPhase::kStandby, 1, 1), kSecond);
+  claim.WakeUp(kSecond / 2, 2 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kWaking) << "a standby is faster";
   ServiceClaim beside(Standby(5));
   beside.Update(0);
   beside.Update(kSecond);
-  beside.Hear(Heard(7, OtherPhase::kStandby, 1, 1), kSecond);
-  beside.WakeUp(5 * kSecond);
+  beside.WakeUp(kSecond / 20, 5 * kSecond);
+  EXPECT_EQ(beside.phase(), ClaimPhase::kServing);
+  beside.WakeUp(kSecond / 20 + 1, 5 * kSecond);
   beside.Update(5 * kSecond);
   EXPECT_EQ(beside.phase(), ClaimPhase::kWaking);
   EXPECT_FALSE(beside.works());
@@ -134,14 +142,39 @@ TEST(ServiceClaim, OneThatStoodStillListensFirstAndYieldsToOneSample) {
   EXPECT_EQ(alone.term(), 1u) << "nobody has taken over, so its promises hold";
   beside.Hear(Heard(7, OtherPhase::kServing, 2, 9), 5 * kSecond + 1);
   beside.Update(5 * kSecond + 1);
-  EXPECT_EQ(beside.phase(), ClaimPhase::kStandby);
+  EXPECT_EQ(beside.phase(), ClaimPhase::kYielded) << "what it knows of the world is old";
+}
+
+TEST(ServiceClaim, OfTwoThatServeTheOneThatSimulatorsFollowStays) {
+  ServiceClaim followed = Serving(5, 3), lonely = Serving(6, 4);
+  lonely.SetFollowed(false);
+  for (const std::uint64_t sequence : {1, 2}) {
+    HeardService heard = Heard(6, OtherPhase::kServing, lonely.term(), sequence);
+    heard.followed = false;
+    followed.Hear(heard, 2 * kSecond);
+    lonely.Hear(Heard(5, OtherPhase::kServing, followed.term(), sequence), 2 * kSecond);
+  }
+  for (ServiceClaim* claim : {&followed, &lonely}) claim->Update(2 * kSecond);
+  EXPECT_LT(followed.term(), lonely.term());
+  EXPECT_EQ(followed.phase(), ClaimPhase::kServing);
+  EXPECT_EQ(lonely.phase(), ClaimPhase::kYielded);
+}
+
+TEST(ServiceClaim, AStandbyThatHasHeardNothingForLongStartsAfresh) {
+  ServiceClaim claim = StandingBy(5);
+  ServiceClaim stale = claim;
+  claim.WakeUp(kStaleAfterNs, 9 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kStandby);
+  stale.WakeUp(kStaleAfterNs + 1, 9 * kSecond);
+  EXPECT_EQ(stale.phase(), ClaimPhase::kYielded);
+  EXPECT_EQ(stale.why(), "stood still for 5.0 s while it stood by");
 }
 
 TEST(ServiceClaim, AStandbyThatStoodStillListensBeforeItTakesOver) {
   ServiceClaim claim = StandingBy(5);
-  EXPECT_TRUE(claim.NeedsWakeUp());
+  EXPECT_EQ(claim.standstill_ns(), kSecond / 20);
   // While it heard nothing, the lease of the other one seems to have ended.
-  claim.WakeUp(9 * kSecond);
+  claim.WakeUp(2 * kSecond, 9 * kSecond);
   claim.HearEnd(1);
   claim.Update(9 * kSecond);
   EXPECT_EQ(claim.phase(), ClaimPhase::kStandby);
@@ -303,6 +336,7 @@ class Room {
 
   void Start() {
     services_.push_back({ServiceClaim(Options(random_(), random_() % 4)), random_() % 2 == 0});
+    services_.back().first.SetFollowed(random_() % 2 == 0);
   }
   void Part(bool parted) { parted_ = parted; }
 
@@ -328,7 +362,8 @@ class Room {
                      .term = speaker.term(),
                      .phase = speaker.phase() == ClaimPhase::kServing ? OtherPhase::kServing
                                                                       : OtherPhase::kClaiming,
-                     .sequence = sequence_},
+                     .sequence = sequence_,
+                     .followed = speaker.followed()},
                     now_ns_);
       }
     }

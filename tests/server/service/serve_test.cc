@@ -95,7 +95,8 @@ Served ServeOn(Bus& bus, std::shared_ptr<TreeStore> trees = nullptr) {
   PrepareSignals();
   {
     RecordingWriter recorder(recording, config);
-    served.exit_code = Serve(config, bus, {.recorder = &recorder, .trees = std::move(trees)});
+    served.exit_code =
+        Serve(config, bus, {.recorder = &recorder, .trees = std::move(trees)}).value();
     EXPECT_EQ(recorder.error(), "");
   }
   StartLogging("info", "");
