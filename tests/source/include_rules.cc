@@ -57,7 +57,7 @@ const std::vector<Layer>& Layers() {
        {"idl/", "server/process/", "server/config/", "server/bus/", "server/claim/",
         "server/recording/"}},
       {"server/codec/", {core, "idl/", "server/codec/"}},
-      {"server/quotas/", {core, "idl/", "server/quotas/"}},
+      {"server/quotas/", {core, "idl/", "server/config/", "server/quotas/"}},
       {"server/shapes/",
        {core, "idl/", "server/process/", "server/codec/", "server/quotas/", "server/shapes/"}},
       {"server/world/",
