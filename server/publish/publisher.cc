@@ -120,6 +120,10 @@ void Publisher::NoteEvents(const std::vector<detection::CollisionEvent>& events,
   }
 }
 
+void Publisher::Hear(const v1::CollisionEvent& event) {
+  if (claim_.phase() != ClaimPhase::kServing) inherited_.Hear(event);
+}
+
 void Publisher::PublishInherited(const World& world) {
   std::set<std::pair<detection::AgentId, detection::AgentId>> told;
   for (v1::CollisionEvent& contact : inherited_.TakeTold()) {

@@ -42,7 +42,7 @@ class Publisher {
 
   /// A standby: takes note of what it would publish, and of what the service in force does.
   void NoteEvents(const std::vector<detection::CollisionEvent>& events, const World& world);
-  void Hear(const v1::CollisionEvent& event) { inherited_.Hear(event); }
+  void Hear(const v1::CollisionEvent& event);
 
   /// It has taken over: publishes the contacts that the other service has not, and what stands told
   /// of pairs whose event is not over; readers know which of these they have heard.

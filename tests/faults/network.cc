@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "idl/service_heard.h"
+
 namespace collision::faults {
 namespace {
 
@@ -20,13 +22,7 @@ v1::Input HeardOf(const v1::Output& output) {
     *input.mutable_event_heard() = output.collision_event();
     return input;
   }
-  const v1::ServiceStatus& status = output.service_status();
-  v1::ServiceHeard& heard = *input.mutable_service_heard();
-  heard.set_service_id(status.stamp().service_id());
-  heard.set_term(status.stamp().term());
-  heard.set_sequence(status.stamp().sequence());
-  heard.set_phase(status.phase());
-  heard.set_granted_until_ns(status.granted_until_ns());
+  *input.mutable_service_heard() = collision::HeardOf(output.service_status());
   return input;
 }
 
