@@ -214,6 +214,7 @@ void Publisher::BeginEpoch(std::uint32_t epoch) {
   epoch_ = epoch;
   earliest_.reset();
   filter_.Forget();
+  inherited_.BeginEpoch(epoch);
 }
 
 void Publisher::PublishStatus(v1::ServiceStatus status) {
