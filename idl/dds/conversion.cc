@@ -2,8 +2,10 @@
 
 #include <type_traits>
 
+#include "idl/dds/text.h"
 #include "idl/dds/wire_values.h"
 #include "idl/limits.h"
+#include "idl/service_heard.h"
 
 namespace collision::dds {
 namespace {
@@ -156,7 +158,8 @@ FIELDS(ServiceStatus,
        VALUE(pairs_tracked) LIST(simulators, wire::kStatusSimulatorsMax)
        LIST(counters, wire::kStatusCountersMax) TEXT(broad_phase) TEXT(broad_phase_why)
        LIST(left_out, wire::kStatusLeftOutMax) LIST(extensions, wire::kStatusExtensionsMax)
-       VALUE(followers))
+       VALUE(followers)
+       VALUE(configuration))
 // clang-format on
 
 }  // namespace
@@ -200,16 +203,13 @@ void FromWire(TopicId topic, const void* wire, v1::Input* input) {
     case TopicId::kOperatorCommand:
       return Get(wire, input->mutable_operator_command());
     case TopicId::kServiceStatus: {
-      const auto& status = *static_cast<const collision_v1_ServiceStatus*>(wire);
-      v1::ServiceHeard& heard = *input->mutable_service_heard();
-      heard.set_service_id(status.service_id);
-      heard.set_term(status.stamp.term);
-      heard.set_sequence(status.stamp.sequence);
-      heard.set_phase(static_cast<v1::ServicePhase>(status.phase));
-      heard.set_granted_until_ns(status.granted_until_ns);
-      heard.set_followed(status.followers > 0);
-      heard.set_now_ns(status.now_ns);
-      heard.set_agents(status.agents);
+      v1::ServiceStatus status;
+      Get(wire, &status);
+      status.set_version(Printable(status.version()));
+      for (v1::KeyValue& extension : *status.mutable_extensions()) {
+        extension.set_value(Printable(extension.value()));
+      }
+      *input->mutable_service_heard() = HeardOf(status);
       return;
     }
     case TopicId::kContact:

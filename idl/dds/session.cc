@@ -7,6 +7,7 @@
 #include "idl/dds/conversion.h"
 #include "idl/dds/endpoints.h"
 #include "idl/dds/intake.h"
+#include "idl/dds/text.h"
 #include "idl/dds/waker.h"
 #include "idl/dds/writer_watch.h"
 #include "idl/identity.h"
@@ -170,10 +171,18 @@ class DdsSession::Implementation {
     std::vector<DdsIgnored> taken;
     for (const auto& [writer, for_ns] : inbox_.TakeIgnoredSenders()) {
       ++senders_ignored_;
-      const dds_entity_t reader = endpoints_.readers[writer.topic];
-      taken.push_back({dds::PartitionOf(reader, writer.writer), std::chrono::nanoseconds(for_ns)});
+      taken.push_back({PartitionOf(writer), std::chrono::nanoseconds(for_ns)});
     }
     return taken;
+  }
+
+  std::vector<DdsLoss> losses() const {
+    std::vector<DdsLoss> losses;
+    for (const auto& [writer, loss] : inbox_.Losses()) {
+      losses.push_back({writer ? PartitionOf(*writer) : "", loss.dropped, loss.waiting,
+                        std::chrono::nanoseconds(loss.ignored_for_ns)});
+    }
+    return losses;
   }
 
   bool TakeRelief() { return inbox_.TakeRelief(); }
@@ -208,6 +217,10 @@ class DdsSession::Implementation {
   }
 
  private:
+  std::string PartitionOf(const dds::NewWriter& writer) const {
+    return dds::Printable(dds::PartitionOf(endpoints_.readers[writer.topic], writer.writer));
+  }
+
   dds_entity_t Writer(dds::TopicId topic) const {
     const dds_entity_t writer = endpoints_.writers[static_cast<std::size_t>(topic)];
     if (writer == 0)
@@ -284,6 +297,8 @@ std::size_t DdsSession::Receive(std::chrono::nanoseconds timeout, std::size_t li
 void DdsSession::Wake() noexcept { implementation_->Wake(); }
 
 std::vector<DdsIgnored> DdsSession::TakeIgnored() { return implementation_->TakeIgnored(); }
+
+std::vector<DdsLoss> DdsSession::losses() const { return implementation_->losses(); }
 
 bool DdsSession::TakeRelief() { return implementation_->TakeRelief(); }
 std::uint32_t DdsSession::earliest_readers() const { return implementation_->earliest_readers(); }

@@ -47,6 +47,14 @@ struct DdsIgnored {
   std::chrono::nanoseconds duration{0};
 };
 
+/// A program of which samples are dropped, or will be, since it writes more than it may.
+struct DdsLoss {
+  std::string partition;                    ///< As in DdsIgnored.
+  std::uint64_t dropped = 0;                ///< Samples, until none has been dropped for a minute.
+  std::size_t waiting = 0;                  ///< Samples.
+  std::chrono::nanoseconds ignored_for{0};  ///< From now on.
+};
+
 /// What did not become a message. All grow from 0.
 struct DdsCounters {
   std::uint64_t samples_lost = 0;     ///< The network gave up on them; newer ones came instead.
@@ -125,6 +133,9 @@ class DdsSession {
 
   /// The programs that have begun to be ignored since the last call.
   std::vector<DdsIgnored> TakeIgnored();
+
+  /// The programs that lose samples, or of which so many wait that newer ones replace older ones.
+  std::vector<DdsLoss> losses() const;
 
   /// True once after much has waited and is gone: memory can be given back to the system.
   bool TakeRelief();

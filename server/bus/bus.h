@@ -49,6 +49,11 @@ class Bus {
 
   /// What the bus did to protect the service since the last call, a line for the log each.
   virtual std::vector<std::string> TakeWarnings() { return {}; }
+
+  /// The programs that write more than they may, each with what is dropped of it, in words for the
+  /// status.
+  virtual std::vector<std::string> flooding() const { return {}; }
+
   /// Who reads the earliest intersection, which is computed for them alone.
   virtual std::uint32_t earliest_readers() const { return 1; }
 

@@ -31,7 +31,7 @@ v1::Counter CounterOf(const std::string& name, std::uint64_t value) {
 
 DdsBus::DdsBus(const std::string& world, std::uint32_t domain, std::chrono::nanoseconds lease,
                const dds::SenderLimits& sender_limits, bool stands_by)
-    : session_(Options(world, domain, lease, sender_limits, stands_by)) {}
+    : world_(world), session_(Options(world, domain, lease, sender_limits, stands_by)) {}
 
 bool DdsBus::Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                      std::vector<v1::Input>* inputs) {
@@ -88,12 +88,30 @@ void DdsBus::Wake() { session_.Wake(); }
 std::vector<std::string> DdsBus::TakeWarnings() {
   std::vector<std::string> lines;
   for (const DdsIgnored& ignored : session_.TakeIgnored()) {
-    lines.push_back("a program in partition \"" + ignored.partition +
-                    "\" writes more than it may: it is ignored for " +
+    lines.push_back(SimulatorIn(ignored.partition) +
+                    " writes more than it may: it is ignored for " +
                     std::to_string(ignored.duration / std::chrono::seconds(1)) + " s");
   }
   return lines;
 }
+
+std::vector<std::string> DdsBus::flooding() const {
+  std::vector<std::string> texts;
+  for (const DdsLoss& loss : session_.losses()) {
+    texts.push_back(SimulatorIn(loss.partition) + ": " + std::to_string(loss.dropped) +
+                    " messages dropped; " + std::to_string(loss.waiting) + " wait");
+    const auto seconds = std::chrono::ceil<std::chrono::seconds>(loss.ignored_for).count();
+    if (seconds > 0) texts.back() += "; ignored for " + std::to_string(seconds) + " s";
+  }
+  return texts;
+}
+
+std::string DdsBus::SimulatorIn(const std::string& partition) const {
+  if (partition.empty()) return "a program that has left";
+  const bool in_world = partition.starts_with(world_ + ".");
+  return "simulator \"" + partition.substr(in_world ? world_.size() + 1 : 0) + "\"";
+}
+
 std::uint32_t DdsBus::earliest_readers() const { return session_.earliest_readers(); }
 
 std::vector<v1::Counter> DdsBus::network_counters() const {

@@ -45,6 +45,8 @@ class DdsBus final : public Bus {
   std::vector<std::string> TakeWarnings() override;
   std::uint32_t earliest_readers() const override;
 
+  std::vector<std::string> flooding() const override;
+
   /// counters(), each with "dds_" before its name.
   std::vector<v1::Counter> network_counters() const override;
 
@@ -54,6 +56,10 @@ class DdsBus final : public Bus {
  private:
   void Write(const v1::Output& output);
 
+  /// The simulator that a program speaks for, as its partition says.
+  std::string SimulatorIn(const std::string& partition) const;
+
+  const std::string world_;
   DdsSession session_;
   std::chrono::nanoseconds standstill_{0};
   std::chrono::steady_clock::time_point ran_;  ///< It certainly ran then.

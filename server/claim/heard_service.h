@@ -7,6 +7,10 @@
 namespace collision::server {
 
 inline HeardService HeardOf(const v1::ServiceHeard& heard) {
+  std::string process = heard.process();
+  if (!heard.version().empty()) {
+    process += (process.empty() ? "version " : ", version ") + heard.version();
+  }
   const OtherPhase phase = heard.phase() == v1::PHASE_CLAIMING  ? OtherPhase::kClaiming
                            : heard.phase() == v1::PHASE_STANDBY ? OtherPhase::kStandby
                                                                 : OtherPhase::kServing;
@@ -14,7 +18,8 @@ inline HeardService HeardOf(const v1::ServiceHeard& heard) {
           .term = heard.term(),
           .phase = phase,
           .sequence = heard.sequence(),
-          .followed = heard.followed()};
+          .followed = heard.followed(),
+          .process = process};
 }
 
 }  // namespace collision::server

@@ -198,8 +198,22 @@ void Journal::ReadRecord(std::size_t record, const std::string& bytes) {
   }
   const Row row = FromPayload<Row>(bytes);
   if (row.name_length == 0 || row.name_length > wire::kNameMax) return;
-  simulators_[row.id] = SimulatorOf(row);
-  record_of_[row.id] = record;
+  Take(SimulatorOf(row), record);
+}
+
+void Journal::Take(const JournalledSimulator& simulator, std::size_t record) {
+  const auto [known, is_new] = simulators_.try_emplace(simulator.id, simulator);
+  std::size_t& place = record_of_.try_emplace(simulator.id, record).first->second;
+  if (is_new) return;
+  AddDamage(record * kRecordBytes, fmt::format("simulator \"{}\" has another record before this "
+                                               "one: the higher run and grant counts",
+                                               simulator.name));
+  const auto reach = [](const JournalledSimulator& of) { return std::pair(of.run, of.granted); };
+  if (reach(simulator) > reach(known->second)) {
+    known->second = simulator;
+    std::swap(place, record);
+  }
+  spoilt_.push_back(record);
 }
 
 void Journal::CountBeyond() {

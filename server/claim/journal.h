@@ -27,9 +27,11 @@ class JournalInUse : public std::runtime_error {
 /// that does not fit its checksum. It is of the machine that wrote it (little-endian).
 ///
 /// **Damage.** What does not fit its checksum, what is missing at the end, and simulators beyond
-/// `simulators_max` are left out and told by damage(); nothing else is lost. A journal is given its
-/// name only once its head is on the medium, so an empty file is a damaged one. The next SetTerm()
-/// frees the records that were left out.
+/// `simulators_max` are left out and told by damage(); nothing else is lost. So are records of a
+/// simulator that has another one, of a higher run, or of the same run and a greater grant: a
+/// machine that lost its power may have kept the old record beside the new one. A journal is given
+/// its name only once its head is on the medium, so an empty file is a damaged one. The next
+/// SetTerm() frees the records that were left out.
 ///
 /// **Failure.** A write that fails (a full disk, a medium gone read-only) is told by error(), and
 /// nothing more is written. One thread.
@@ -70,6 +72,7 @@ class Journal {
   void Begin();
   void Read();
   void ReadRecord(std::size_t record, const std::string& bytes);
+  void Take(const JournalledSimulator& simulator, std::size_t record);
   void CountBeyond();
   void AddDamage(std::size_t byte, const std::string& what);
   bool Write(std::size_t record, const std::string& payload);
@@ -84,7 +87,7 @@ class Journal {
   std::map<std::uint64_t, std::size_t> record_of_;  ///< By simulator.
   std::vector<std::size_t> free_;                   ///< Records without a simulator, last first.
   std::size_t rows_ = 0;                            ///< Records after the head that the file has.
-  std::vector<std::size_t> spoilt_;  ///< Of these, those that do not fit, until SetTerm().
+  std::vector<std::size_t> spoilt_;  ///< Of these, those that are left out, until SetTerm().
   std::vector<std::string> damage_;
   std::string error_;
 };

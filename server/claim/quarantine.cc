@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "idl/identity.h"
+#include "idl/limits.h"
 #include "server/process/write_all.h"
 
 namespace collision::server {
@@ -50,15 +51,6 @@ std::uint64_t ContentOf(v1::AgentDescription description) {
   description.clear_sequence();  // of the writing, not of the content
   description.clear_states_sequence();
   return Fnv1a(description.SerializeAsString());
-}
-
-std::string TextOf(const MessageMark& mark) {
-  const char* kind = mark.kind == v1::Input::kAgentDescription ? "description of slot"
-                     : mark.kind == v1::Input::kShapePart      ? "shape"
-                     : mark.kind == v1::Input::kAgentStates    ? "states of chunk"
-                                                               : "clock";
-  return fmt::format("simulator {:016x}, {} {}, content {:016x}", mark.simulator, kind, mark.place,
-                     mark.content);
 }
 
 }  // namespace
@@ -102,8 +94,10 @@ MessageMark MarkOf(const v1::Input& input) {
   }
 }
 
-Quarantine::Quarantine(const std::string& folder, const std::string& world, std::uint32_t domain)
+Quarantine::Quarantine(const std::string& folder, const std::string& world, std::uint32_t domain,
+                       const Roster& roster)
     : path_(fmt::format("{}/{}.{}.quarantine", folder, world, domain)) {
+  for (const auto& [id, simulator] : roster) KeepName(id, simulator.name);
   const int file = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
   if (file < 0) throw std::runtime_error(path_ + ": cannot be written: " + CauseOf(errno));
   // All of it is there from now on: a store into a mapped file cannot report a full disk.
@@ -140,14 +134,43 @@ void Quarantine::TakeUnfinishedStep() {
     for (std::uint32_t i = 0; i < kept; ++i) Suspect(page_->marks[i], kept == 1);
   }
   page_->in_step = 0;
-  spdlog::warn(
-      "{}: the service ended in the middle of a step: {} messages of that step are suspected and "
-      "will be applied one by one; {} are refused as long as their content is the same (to end "
-      "that, remove the file while the service is stopped)",
-      path_, page_->suspected, page_->quarantined);
-  for (std::uint32_t i = 0; i < page_->quarantined; ++i) {
-    spdlog::warn("quarantined: {}", TextOf(page_->refused[i]));
+  LogSuspicion();
+}
+
+void Quarantine::LogSuspicion() const {
+  const std::uint32_t suspected = page_->suspected;
+  std::string what = page_->quarantined > 0
+                         ? "no message is suspected beside those that are refused from now on"
+                         : "no message is suspected: none that comes back was being applied";
+  if (suspected > 0) {
+    what =
+        fmt::format("suspected, and applied in steps of their own: {}", TextOf(*page_->suspects));
+    if (suspected > 1) what += fmt::format(", and {} more of that step", suspected - 1);
   }
+  spdlog::warn("{}: the service ended in the middle of a step; {}", path_, what);
+  for (std::uint32_t i = 0; i < page_->quarantined; ++i) {
+    spdlog::warn(
+        "{}: refused as long as its content is the same: {} (to end that, remove the file while "
+        "the service is stopped)",
+        path_, TextOf(page_->refused[i]));
+  }
+}
+
+std::string Quarantine::TextOf(const MessageMark& mark) const {
+  const char* kind = mark.kind == v1::Input::kAgentDescription ? "description of slot"
+                     : mark.kind == v1::Input::kShapePart      ? "shape"
+                     : mark.kind == v1::Input::kAgentStates    ? "states of chunk"
+                                                               : "clock";
+  const auto name = names_.find(mark.simulator);
+  const std::string simulator = name == names_.end() ? "" : " \"" + name->second + "\"";
+  return fmt::format("simulator {}{}, {} {}, content {:016x}", IdText(mark.simulator), simulator,
+                     kind, mark.place, mark.content);
+}
+
+void Quarantine::KeepName(std::uint64_t simulator, const std::string& name) {
+  if (SimulatorId(name) != simulator || !wire::IsName(name)) return;
+  if (names_.size() == kNamesMax) return;
+  names_.try_emplace(simulator, name);
 }
 
 // `convicts`: nothing else of the step can have been the cause.
@@ -194,6 +217,9 @@ void Quarantine::Screen(std::vector<v1::Input>* batch) {
   if (!holds() && page_->suspected == 0 && page_->quarantined == 0) return;
   for (v1::Input& input : *batch) {
     const MessageMark mark = MarkOf(input);
+    KeepName(mark.simulator, input.has_agent_description()
+                                 ? input.agent_description().simulator_name()
+                                 : input.simulator_clock().simulator_name());
     input.set_quarantined(IsQuarantined(mark));
     if (mark.kind != v1::Input::kShapePart) AcquitReplaced(mark);
     const bool suspected = IsSuspected(mark);
@@ -246,10 +272,13 @@ std::uint32_t Quarantine::suspected() const { return page_->suspected; }
 std::uint32_t Quarantine::quarantined() const { return page_->quarantined; }
 
 std::string Quarantine::Summary() const {
-  if (page_->suspected == 0 && page_->quarantined == 0) return {};
-  std::string text = fmt::format("{} suspected, {} refused", page_->suspected, page_->quarantined);
+  std::string text;
+  if (page_->suspected > 0) {
+    text = fmt::format("{} suspected, the first: {}", page_->suspected, TextOf(*page_->suspects));
+  }
   if (page_->quarantined > 0) {
-    text += "; the last: " + TextOf(page_->refused[page_->quarantined - 1]);
+    text += fmt::format("{}{} refused, the last: {}", text.empty() ? "" : "; ", page_->quarantined,
+                        TextOf(page_->refused[page_->quarantined - 1]));
   }
   return text;
 }

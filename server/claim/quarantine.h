@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "idl/messages.pb.h"
+#include "server/claim/journalled_simulator.h"
 
 namespace collision::server {
 
@@ -49,9 +51,16 @@ class Quarantine {
   static constexpr std::uint32_t kMarksMax = 4096;
   static constexpr std::uint32_t kQuarantinedMax = 256;
 
+  /// Simulators whose names are known; beyond, others are told by their id.
+  static constexpr std::size_t kNamesMax = 4096;
+
+  using Roster = std::map<std::uint64_t, JournalledSimulator>;
+
   /// Opens the file of a world in `folder`, which exists, or makes it. What is damaged is begun
-  /// anew. Throws std::runtime_error with path and cause.
-  Quarantine(const std::string& folder, const std::string& world, std::uint32_t domain);
+  /// anew. `roster`: names of simulators, for log and status; those of others are known once they
+  /// come back. Throws std::runtime_error with path and cause.
+  Quarantine(const std::string& folder, const std::string& world, std::uint32_t domain,
+             const Roster& roster = {});
   /// An end between two steps also ends all suspicion.
   ~Quarantine();
   Quarantine(const Quarantine&) = delete;
@@ -86,6 +95,9 @@ class Quarantine {
 
   void Begin();
   void TakeUnfinishedStep();
+  void LogSuspicion() const;
+  std::string TextOf(const MessageMark& mark) const;
+  void KeepName(std::uint64_t simulator, const std::string& name);
   void Suspect(const MessageMark& mark, bool convicts);
   bool IsSuspected(const MessageMark& mark) const;
   bool IsQuarantined(const MessageMark& mark) const;
@@ -93,6 +105,7 @@ class Quarantine {
   void AcquitReplaced(const MessageMark& newer);
 
   const std::string path_;
+  std::map<std::uint64_t, std::string> names_;  ///< At most kNamesMax; others are told by their id.
   Page* page_ = nullptr;
   std::vector<v1::Input> waiting_;
   std::deque<v1::Input> suspected_waiting_;

@@ -5,17 +5,20 @@
 #include <algorithm>
 #include <limits>
 
+#include "idl/identity.h"
+
 namespace collision::server {
 namespace {
 
 /// Of a standby that has heard of no service that serves.
 constexpr std::uint32_t kUnknownTerm = std::numeric_limits<std::uint32_t>::max();
 
-std::string Name(const HeardService& service) {
-  return fmt::format("service {:016x}, term {}", service.instance, service.term);
-}
-
 }  // namespace
+
+std::string NameOf(const HeardService& service) {
+  const std::string process = service.process.empty() ? "" : " (" + service.process + ")";
+  return fmt::format("service {}{}, term {}", IdText(service.instance), process, service.term);
+}
 
 void ServiceClaim::Hear(const HeardService& heard, std::int64_t now_ns) {
   if (heard.instance == options_.instance) return;
@@ -105,14 +108,14 @@ bool ServiceClaim::Yields(std::int64_t now_ns) {
     if (now_ns - other.heard_ns > options_.heard_for_ns) continue;
     if (other.samples < samples_wanted || !GoesFirst(other.newest)) continue;
     if (phase_ != ClaimPhase::kClaiming) {
-      Yield(other.newest, Name(other.newest) + " serves this world too and goes before term " +
+      Yield(other.newest, NameOf(other.newest) + " serves this world too and goes before term " +
                               std::to_string(term_));
     } else if (other.newest.phase == OtherPhase::kServing) {
-      Yield(other.newest, Name(other.newest) + " serves this world");
+      Yield(other.newest, NameOf(other.newest) + " serves this world");
     } else {
-      Yield(other.newest, Name(other.newest) + (other.newest.phase == OtherPhase::kStandby
-                                                    ? " stands by in this world"
-                                                    : " is starting in this world too"));
+      Yield(other.newest, NameOf(other.newest) + (other.newest.phase == OtherPhase::kStandby
+                                                      ? " stands by in this world"
+                                                      : " is starting in this world too"));
     }
     return true;
   }
@@ -195,7 +198,7 @@ std::vector<std::string> ServiceClaim::Conflicts(std::int64_t now_ns) const {
   for (const auto& [instance, other] : others_) {
     if (now_ns - other.heard_ns > options_.heard_for_ns) continue;
     if (other.newest.phase != OtherPhase::kServing) continue;
-    lines.push_back(Name(other.newest) + " publishes in this world beside term " +
+    lines.push_back(NameOf(other.newest) + " publishes in this world beside term " +
                     std::to_string(term_));
   }
   return lines;

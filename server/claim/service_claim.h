@@ -21,7 +21,11 @@ struct HeardService {
   OtherPhase phase = OtherPhase::kClaiming;
   std::uint64_t sequence = 0;  ///< Of the sample.
   bool followed = true;        ///< Serving: simulators have told clocks that name it.
+  std::string process = {};    ///< Where it runs, in which version; empty: not known.
 };
+
+/// For the log: "service 0123456789abcdef (pid 12 on host-a, version 0.1.0), term 3".
+std::string NameOf(const HeardService& service);
 
 enum class ClaimPhase {
   kClaiming,  ///< It listens whether anybody serves the world, and publishes nothing but its claim.

@@ -10,9 +10,9 @@
 #include <sstream>
 #include <system_error>
 
-#include "idl/limits.h"
 #include "server/config/config_options.h"
 #include "server/config/config_text.h"
+#include "server/config/limit_blocks.h"
 
 namespace collision::server {
 namespace {
@@ -22,17 +22,21 @@ using google::protobuf::TextFormat;
 /// Before the number of a block of `limits`, in the name of a field with an error.
 constexpr std::string_view kLimitsPath = "limits[";
 
-constexpr int kLimitBlocksMax = 64;
-
 /// Where a field stands in the text; line -1: it is not there.
 TextPlace PlaceOf(TextFormat::ParseInfoTree* tree, const std::string& path) {
   const google::protobuf::Descriptor* type = v1::Config::descriptor();
+  const std::size_t dot = path.find('.');
   if (path.starts_with(kLimitsPath)) {
-    const auto place = tree->GetLocation(type->FindFieldByName("limits"),
-                                         std::atoi(path.c_str() + kLimitsPath.size()));
+    const auto* limits = type->FindFieldByName("limits");
+    const int block = std::atoi(path.c_str() + kLimitsPath.size());
+    const auto whole = tree->GetLocation(limits, block);
+    if (dot == path.npos) return {whole.line, whole.column};
+    const auto place =
+        tree->GetTreeForNested(limits, block)
+            ->GetLocation(limits->message_type()->FindFieldByName(path.substr(dot + 1)), -1);
+    if (place.line < 0) return {whole.line, whole.column};
     return {place.line, place.column};
   }
-  const std::size_t dot = path.find('.');
   if (dot != path.npos) {
     const auto* nested = type->FindFieldByName(path.substr(0, dot));
     tree = tree->GetTreeForNested(nested, -1);
@@ -82,60 +86,6 @@ void CheckAgainst(const v1::Config& config, std::vector<ConfigError>* errors) {
   if (clock.on_silent_simulator() == v1::Clock::WAIT &&
       clock.release_after_s() != release_default) {
     errors->push_back({"clock.release_after_s", "allowed only with on_silent_simulator RELEASE"});
-  }
-}
-
-bool IsNamePattern(std::string name) {
-  std::replace(name.begin(), name.end(), '*', 'x');
-  return wire::IsName(name);
-}
-
-/// A block of `limits` allows no more than the world does.
-void CheckBlock(const v1::Config& config, const v1::SimulatorLimits& block, const std::string& path,
-                std::vector<ConfigError>* errors) {
-  if (!IsNamePattern(block.name())) {
-    errors->push_back({path + "name", "allowed: 1 to 64 of A-Z a-z 0-9 _ - *"});
-  }
-  if (!(block.guaranteed() >= 0 && block.guaranteed() <= 1)) {
-    errors->push_back({path + "guaranteed", "allowed: 0 to 1"});
-  }
-  const auto check = [&](bool is_set, const char* field, std::uint64_t value, std::uint64_t limit) {
-    if (!is_set || (value >= 1 && value <= limit)) return;
-    errors->push_back({path + field, std::to_string(value) + " is not allowed; allowed: 1 to " +
-                                         std::to_string(limit) + ", as the whole world has"});
-  };
-  check(block.has_agents_max(), "agents_max", block.agents_max(), config.agents_max());
-  check(block.has_pairs_max(), "pairs_max", block.pairs_max(), config.pairs_max());
-  check(block.has_shapes_max(), "shapes_max", block.shapes_max(), config.shapes_max());
-  check(block.has_shape_bytes_max(), "shape_bytes_max", block.shape_bytes_max(),
-        config.shape_bytes_max());
-  check(block.has_tree_bytes_max(), "tree_bytes_max", block.tree_bytes_max(),
-        config.tree_bytes_max());
-  check(block.has_rejections_per_second_max(), "rejections_per_second_max",
-        block.rejections_per_second_max(), config.rejections_per_second_max());
-}
-
-void CheckLimits(const v1::Config& config, std::vector<ConfigError>* errors) {
-  if (config.limits_size() > kLimitBlocksMax) {
-    errors->push_back({"limits[" + std::to_string(kLimitBlocksMax) + "]",
-                       "allowed: at most " + std::to_string(kLimitBlocksMax) + " blocks"});
-  }
-  const auto names = static_cast<std::size_t>(
-      std::count_if(config.limits().begin(), config.limits().end(),
-                    [](const auto& block) { return block.name().find('*') == std::string::npos; }));
-  if (names > config.simulators_max()) {
-    errors->push_back({"limits[0].name", "more names without * than simulators_max"});
-  }
-  double guaranteed = 0;
-  for (int i = 0; i < config.limits_size(); ++i) {
-    const std::string path = "limits[" + std::to_string(i) + "].";
-    CheckBlock(config, config.limits(i), path, errors);
-    const bool one = config.limits(i).name().find('*') == std::string::npos;
-    guaranteed += one ? config.limits(i).guaranteed() : 0;
-    if (guaranteed > 1) {
-      errors->push_back({path + "guaranteed", "together with the blocks before more than 1"});
-      return;
-    }
   }
 }
 
@@ -195,7 +145,7 @@ std::vector<ConfigError> CheckConfig(const v1::Config& complete) {
     if (!what.empty()) errors.push_back({std::string(option.path), std::move(what)});
   }
   CheckAgainst(complete, &errors);
-  CheckLimits(complete, &errors);
+  CheckLimitBlocks(complete, &errors);
   return errors;
 }
 

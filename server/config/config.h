@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "idl/config.pb.h"
+#include "server/config/config_error.h"
 
 namespace collision::server {
 
@@ -25,11 +26,6 @@ ConfigResult LoadConfig(const std::string& path);
 
 /// Fills every field that is not set with its default.
 v1::Config CompleteConfig(v1::Config config);
-
-struct ConfigError {
-  std::string field;  ///< Its path, as in "clock.kind".
-  std::string what;
-};
 
 /// Checks a complete configuration: every field, then fields against each other.
 std::vector<ConfigError> CheckConfig(const v1::Config& complete);

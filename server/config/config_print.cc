@@ -18,7 +18,8 @@ constexpr std::string_view kHead =
 constexpr std::string_view kLimitsMeaning =
     "What a simulator may have of the limits above: limits { name: \"drone-*\" agents_max: 100 }, "
     "as "
-    "often as needed. The first block whose name fits counts; * stands for any characters. Fields: "
+    "often as needed. The first block whose name fits counts; * stands for any characters. A block "
+    "whose names all fit an earlier one is refused. Fields: "
     "guaranteed (the part of each limit that is kept for it as long as it is in the world, or "
     "always "
     "if the name has no *; unset: 1 / (simulators_max + 1)), agents_max, pairs_max, shapes_max, "

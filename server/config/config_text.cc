@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/config/config_options.h"
+#include "server/config/limit_blocks.h"
 
 namespace collision::server {
 namespace {
@@ -18,6 +19,8 @@ using google::protobuf::io::Tokenizer;
 
 /// More errors than a hand-written file has; a file of another kind stops here.
 constexpr int kErrorsMax = 100;
+
+constexpr std::string_view kLimits = "limits";
 
 class Unheard final : public google::protobuf::io::ErrorCollector {
   void AddError(int, google::protobuf::io::ColumnNumber, const std::string&) override {}
@@ -32,7 +35,7 @@ class Tokens {
   /// fault with the field, at its value or at the token after that. nullopt: there is none.
   std::optional<std::size_t> FieldBefore(const TextPlace& place) const;
 
-  /// The path of a field, as in "clock.kind".
+  /// The path of a field, as in "clock.kind" or "limits[2].name".
   std::string PathOf(std::size_t field) const;
 
   TextPlace PlaceOf(std::size_t token) const {
@@ -82,8 +85,10 @@ std::optional<std::size_t> Tokens::FieldBefore(const TextPlace& place) const {
 std::string Tokens::PathOf(std::size_t field) const {
   std::vector<std::string> around;
   std::string last;
+  int blocks = 0;  // Of `limits`.
   for (std::size_t token = 0; token < field; ++token) {
     if (IsName(token)) last = tokens_[token].text;
+    if (IsName(token) && around.empty() && last == kLimits) last = LimitBlockPath(blocks++);
     if (Opens(token)) around.push_back(last);
     if (Closes(token) && !around.empty()) around.pop_back();
   }
@@ -136,11 +141,13 @@ std::string Explain(const std::string& path, const std::string& message) {
   if (option != options.end()) {
     return path + ": " + Legible(message) + "; allowed: " + AllowedRange(*option);
   }
-  const bool in_limits = path.starts_with("limits.");
-  const ConfigOption* meant =
-      in_limits ? nullptr : FindConfigOption(path.substr(path.rfind('.') + 1));
-  return path + ": " + Legible(message) +
-         (meant == nullptr ? "" : "; meant is " + std::string(meant->path) + "?");
+  const std::string leaf = path.substr(path.rfind('.') + 1);
+  const std::string error = path + ": " + Legible(message);
+  if (path.starts_with(kLimits) && leaf != path) {
+    return error + "; allowed: " + AllowedInLimitBlock(leaf);
+  }
+  const ConfigOption* meant = FindConfigOption(leaf);
+  return error + (meant == nullptr ? "" : "; meant is " + std::string(meant->path) + "?");
 }
 
 /// Collects the errors of protobuf, each at the field that it is about.

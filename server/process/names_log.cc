@@ -12,7 +12,7 @@ namespace collision::server {
 void NamesLog::Write(std::int64_t monotonic_ns) {
   if (names_.empty() || monotonic_ns < next_ns_) return;
   const std::string names = fmt::format("\"{}\"", fmt::join(names_, "\", \""));
-  spdlog::warn(fmt::format(fmt::runtime(line_), names));
+  spdlog::log(level_, fmt::runtime(line_), names);
   names_.clear();
   next_ns_ = monotonic_ns + std::chrono::nanoseconds(kMatterPeriod).count();
 }

@@ -50,14 +50,28 @@ bool IsContact(const v1::CollisionEvent& event) { return event.contacts_sequence
 
 }  // namespace
 
+void InheritedEvents::BeginEpoch(std::uint32_t epoch) {
+  untold_.clear();
+  untold_of_.clear();
+  if (epoch <= epoch_) return;
+  epoch_ = epoch;
+  pairs_.Clear();
+  told_.clear();
+}
+
 void InheritedEvents::Hear(const v1::CollisionEvent& event) {
+  if (event.stamp().epoch() < epoch_) return;
+  if (event.stamp().epoch() > epoch_) {
+    epoch_ = event.stamp().epoch();
+    pairs_.Clear();
+    told_.clear();
+  }
   if (IsContact(event)) {
     if (told_.size() == kRepeatedMax) told_.pop_front();
     told_.push_back(event);
   }
   const Pair pair{IdOf(event.lower()), IdOf(event.higher())};
-  const Heard* known = Find(pair);
-  Heard heard = known != nullptr ? *known : Heard();
+  Heard& heard = pairs_.Touch(pair);
   heard.ours = 0;
   // Contacts and forecasts come on two topics, in any order.
   if (event.contact() > heard.number || (event.contact() == heard.number && heard.is_open)) {
@@ -75,25 +89,37 @@ void InheritedEvents::Hear(const v1::CollisionEvent& event) {
        (event.contact() == before.contact() && before.status() == v1::EVENT_CONFIRMED))) {
     heard.contact = event;
   }
-  if (pairs_.size() >= kPairsMax) {
-    earlier_ = std::move(pairs_);
-    pairs_.clear();
-  }
-  pairs_[pair] = std::move(heard);
-  std::erase_if(untold_, [&](const Event& contact) {
-    return Pair{contact.lower, contact.higher} == pair && IsTold(contact);
-  });
+  DropTold(pair);
 }
 
 void InheritedEvents::Keep(const Event& contact) {
   if (IsTold(contact)) return;
-  if (untold_.size() == kUntoldMax) untold_.pop_front();
-  untold_.push_back(contact);
+  if (untold_.size() == kUntoldMax) DropOldest();
+  untold_of_[{contact.lower, contact.higher}].push_back(untold_.insert(untold_.end(), contact));
+}
+
+void InheritedEvents::DropTold(const Pair& pair) {
+  const auto of_pair = untold_of_.find(pair);
+  if (of_pair == untold_of_.end()) return;
+  std::erase_if(of_pair->second, [this](Untold::iterator contact) {
+    if (!IsTold(*contact)) return false;
+    untold_.erase(contact);
+    return true;
+  });
+  if (of_pair->second.empty()) untold_of_.erase(of_pair);
+}
+
+void InheritedEvents::DropOldest() {
+  const auto of_pair = untold_of_.find({untold_.front().lower, untold_.front().higher});
+  of_pair->second.pop_front();
+  if (of_pair->second.empty()) untold_of_.erase(of_pair);
+  untold_.pop_front();
 }
 
 std::vector<InheritedEvents::Event> InheritedEvents::TakeUntold() {
   std::vector<Event> untold(untold_.begin(), untold_.end());
   untold_.clear();
+  untold_of_.clear();
   return untold;
 }
 
@@ -104,7 +130,7 @@ std::vector<v1::CollisionEvent> InheritedEvents::TakeTold() {
 }
 
 std::uint32_t InheritedEvents::NumberOf(const Event& event) {
-  Heard* heard = Find({event.lower, event.higher});
+  Heard* heard = pairs_.Find({event.lower, event.higher});
   if (heard == nullptr) return event.contact;
   if (event.contact <= heard->ours) {
     const std::uint32_t earlier = heard->ours - event.contact;
@@ -123,15 +149,9 @@ std::uint32_t InheritedEvents::NumberOf(const Event& event) {
   return heard->for_readers;
 }
 
-InheritedEvents::Heard* InheritedEvents::Find(const Pair& pair) {
-  if (const auto found = pairs_.find(pair); found != pairs_.end()) return &found->second;
-  const auto found = earlier_.find(pair);
-  return found != earlier_.end() ? &found->second : nullptr;
-}
-
 /// Whether readers know as much of it, or a later contact of its pair.
 bool InheritedEvents::IsTold(const Event& contact) {
-  const Heard* heard = Find({contact.lower, contact.higher});
+  const Heard* heard = pairs_.Find({contact.lower, contact.higher});
   if (heard == nullptr) return false;
   // The other service knew more states, and has found that there was no contact.
   if (contact.status == detection::EventStatus::kUndecided &&

@@ -1,13 +1,16 @@
 // What readers know of contacts from the service beside which this one stands by.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <list>
 #include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "collision_core/base/recent_map.h"
 #include "collision_core/detection/events/collision_event.h"
 #include "idl/messages.pb.h"
 
@@ -24,7 +27,11 @@ detection::AgentId IdOf(const v1::AgentId& wire);
 /// that began before a service knew its pair is the one that was in progress then. The standby goes
 /// on with the numbers that readers know.
 ///
-/// Depends on nothing but the calls. O(log pairs) for each event; at most 2 kPairsMax pairs and
+/// All of it is of one epoch: times and numbers begin anew with the next one. A contact that the
+/// other service has found in an epoch that is over, and not published, is not told any more.
+///
+/// Depends on nothing but the calls. Amortised O(log pairs) for each event, and for each contact of
+/// its pair that readers do not know; at most 2 kPairsMax pairs and
 /// kUntoldMax contacts. One thread.
 class InheritedEvents {
  public:
@@ -38,7 +45,10 @@ class InheritedEvents {
   /// Contacts that are told once more after a take-over; of more the oldest are not.
   static constexpr std::size_t kRepeatedMax = 1024;
 
-  /// The service in force has published this.
+  /// This service is in this epoch now. Epochs of all services of a world are numbered alike.
+  void BeginEpoch(std::uint32_t epoch);
+
+  /// The service in force has published this. Nothing if that was in an earlier epoch.
   void Hear(const v1::CollisionEvent& event);
 
   /// This service, standing by, would publish this contact.
@@ -69,12 +79,17 @@ class InheritedEvents {
     std::uint32_t for_readers = 0;  ///< and this is theirs.
   };
 
-  Heard* Find(const Pair& pair);
-  bool IsTold(const Event& contact);
+  using Untold = std::list<Event>;
 
-  std::map<Pair, Heard> pairs_, earlier_;  ///< When the first is full it takes the other's place.
+  bool IsTold(const Event& contact);
+  void DropTold(const Pair& pair);
+  void DropOldest();
+
+  std::uint32_t epoch_ = 1;  ///< Of what was heard.
+  RecentMap<Pair, Heard> pairs_{kPairsMax};
   std::deque<v1::CollisionEvent> told_;
-  std::deque<Event> untold_;
+  Untold untold_;
+  std::map<Pair, std::deque<Untold::iterator>> untold_of_;  ///< Of each pair, in the same order.
 };
 
 }  // namespace collision::server

@@ -125,6 +125,10 @@ void Publisher::BeginToSpeak(const World& world) {
   PublishInherited(world);
 }
 
+void Publisher::Hear(const v1::CollisionEvent& event) {
+  if (!speaks()) inherited_.Hear(event);
+}
+
 void Publisher::PublishInherited(const World& world) {
   std::set<std::pair<detection::AgentId, detection::AgentId>> told;
   for (v1::CollisionEvent& contact : inherited_.TakeTold()) {
@@ -215,6 +219,7 @@ void Publisher::BeginEpoch(std::uint32_t epoch) {
   epoch_ = epoch;
   earliest_.reset();
   filter_.Forget();
+  inherited_.BeginEpoch(epoch);
 }
 
 void Publisher::PublishStatus(v1::ServiceStatus status) {

@@ -41,7 +41,7 @@ class Publisher {
   void PublishEvents(const std::vector<detection::CollisionEvent>& events, const World& world);
 
   /// While it does not speak: what another service publishes.
-  void Hear(const v1::CollisionEvent& event) { inherited_.Hear(event); }
+  void Hear(const v1::CollisionEvent& event);
 
   /// Whether this service publishes anything but its status: it serves, and if it has taken over, a
   /// simulator follows it. A standby whose cable is out takes over, too; nobody follows it, and its

@@ -209,12 +209,14 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   status.set_granted_until_ns(sources.world.granted().nanoseconds());
   status.set_lease_ns(wire::kServiceLease);
   status.set_agents(static_cast<std::uint32_t>(sources.detector.agents()));
+  status.set_configuration(sources.configuration);
   status.set_pairs_tracked(static_cast<std::uint32_t>(sources.detector.pairs_tracked()));
   AddSimulators(sources.world, &status);
   AddIntake(sources, &status);
   AddShapes(sources.shapes.counters(), &status);
   AddDetection(sources, &status);
-  for (const v1::Counter& counter : sources.network) *status.add_counters() = counter;
+  for (const v1::Counter& counter : sources.bus.network_counters())
+    *status.add_counters() = counter;
   const detection::Detector::Profile profile = sources.detector.profile();
   status.set_broad_phase(profile.broad_phase.substr(0, wire::kStatusBroadPhaseMax));
   status.set_broad_phase_why(profile.why.substr(0, wire::kStatusBroadPhaseWhyMax));
@@ -233,13 +235,16 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   AddEvicted(sources.world, &status);
   AddQuotas(sources, &status);
   status.set_followers(static_cast<std::uint32_t>(sources.world.followers()));
+  AddNames("flooding", sources.bus.flooding(), &status);
   for (const v1::KeyValue& extension : sources.extensions) *status.add_extensions() = extension;
   return status;
 }
 
 std::string StepText(const ClockStep& step) {
-  return fmt::format("by {:+.6f} s, to {:.6f} s", 1e-9 * static_cast<double>(step.by_ns),
-                     1e-9 * static_cast<double>(step.to.nanoseconds()));
+  return fmt::format("by {:+.6f} s, to {:.6f} s, {}", 1e-9 * static_cast<double>(step.by_ns),
+                     1e-9 * static_cast<double>(step.to.nanoseconds()),
+                     step.breaks ? "by more than clock.skew_max_s: all promises are void"
+                                 : "within clock.skew_max_s: promises hold");
 }
 
 std::uint64_t Rate::Take(std::uint64_t count, std::int64_t monotonic_ns) {

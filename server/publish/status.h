@@ -8,6 +8,7 @@
 
 #include "collision_core/detection/detector.h"
 #include "idl/config.pb.h"
+#include "server/bus/bus.h"
 #include "server/intake/intake.h"
 #include "server/publish/event_log.h"
 #include "server/publish/publisher.h"
@@ -25,7 +26,7 @@ struct StepCounters {
   std::string last_clock_step = {};  ///< In words; empty: never.
 };
 
-/// How far the wall clock was set, and to what.
+/// How far the wall clock was set, to what, and what that means.
 std::string StepText(const ClockStep& step);
 
 /// Everything that a status is made of; all of it outlives the call.
@@ -38,10 +39,11 @@ struct StatusSources {
   const ShapeStore& shapes;
   const Rejections& rejections;
   const EventLog& event_log;
+  const Bus& bus;
   EventCounters events;
   StepCounters steps;
   std::uint64_t queries_per_second = 0;       ///< Of the detector, since the last status.
-  std::vector<v1::Counter> network;           ///< Bus::network_counters().
+  std::uint64_t configuration = 0;            ///< ConfigurationDigest().
   std::vector<v1::KeyValue> extensions = {};  ///< Further ones.
 };
 

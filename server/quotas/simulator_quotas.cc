@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "collision_core/base/check.h"
 #include "idl/identity.h"
+#include "server/config/limit_blocks.h"
 
 namespace collision::server {
 namespace {
@@ -72,19 +72,6 @@ std::uint64_t LimitOf(const v1::Config& config, Resource resource) {
   return 0;
 }
 
-bool FitsPattern(const std::string& name, const std::string& pattern) {
-  // fits[i]: the pattern so far fits the first i characters.
-  std::vector<bool> fits(name.size() + 1, false);
-  fits[0] = true;
-  for (const char c : pattern) {
-    for (std::size_t i = name.size() + 1; c != '*' && i-- > 0;) {
-      fits[i] = i > 0 && fits[i - 1] && name[i - 1] == c;
-    }
-    for (std::size_t i = 1; c == '*' && i <= name.size(); ++i) fits[i] = fits[i] || fits[i - 1];
-  }
-  return fits[name.size()];
-}
-
 Share ShareOf(const v1::Config& config, const std::string& name, Resource resource) {
   const std::uint64_t limit = LimitOf(config, resource);
   // One part more than simulators: there is some room for a newcomer, and to refuse a stranger.
@@ -108,14 +95,14 @@ Share ShareOf(const v1::Config& config, const std::string& name, Resource resour
 std::set<std::uint64_t> ExpectedIds(const v1::Config& config) {
   std::set<std::uint64_t> ids;
   for (const v1::SimulatorLimits& block : config.limits()) {
-    if (block.name().find('*') == std::string::npos) ids.insert(SimulatorId(block.name()));
+    if (!IsPattern(block.name())) ids.insert(SimulatorId(block.name()));
   }
   return ids;
 }
 
 SimulatorQuotas::SimulatorQuotas(const v1::Config& config) : config_(config) {
   for (const v1::SimulatorLimits& block : config.limits()) {
-    if (block.name().find('*') != std::string::npos) continue;
+    if (IsPattern(block.name())) continue;
     Enter(SimulatorId(block.name()), block.name());
     present_[SimulatorId(block.name())] = true;
   }

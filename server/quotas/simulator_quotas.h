@@ -23,9 +23,6 @@ const char* Name(Resource resource);
 /// The limit of the whole world.
 std::uint64_t LimitOf(const v1::Config& config, Resource resource);
 
-/// Whether the name fits the pattern, in which `*` stands for any characters.
-bool FitsPattern(const std::string& name, const std::string& pattern);
-
 /// The part of the simulator of this name: what the first block of `limits` that fits the name
 /// says, otherwise all of the limit, with limit / (simulators_max + 1) guaranteed.
 Share ShareOf(const v1::Config& config, const std::string& name, Resource resource);

@@ -12,7 +12,6 @@
 #include "server/bus/batch_order.h"
 #include "server/bus/full_batches.h"
 #include "server/claim/heard_service.h"
-#include "server/claim/standby_readiness.h"
 #include "server/config/config.h"
 #include "server/intake/followed_rounds.h"
 #include "server/intake/intake.h"
@@ -24,6 +23,7 @@
 #include "server/service/detector_options.h"
 #include "server/service/operator_commands.h"
 #include "server/service/roster_journal.h"
+#include "server/service/service_report.h"
 #include "server/service/share_report.h"
 #include "server/service/silence_report.h"
 #include "server/shapes/shape_store.h"
@@ -56,6 +56,7 @@ class Daemon::Implementation {
         quarantine_(parts.quarantine),
         state_failure_(parts.state_failure),
         claim_(parts.claim),
+        services_(config_, claim_.instance(), std::move(parts.process)),
         progress_(std::move(parts.progress)),
         shape_builder_(parts.shape_builder
                            ? std::move(parts.shape_builder)
@@ -140,10 +141,8 @@ class Daemon::Implementation {
 
   /// The time until something is due without any input.
   std::chrono::nanoseconds Timeout() const {
-    if (shape_builder_->has_finished() || full_batches_.last_was_full()) {
-      return std::chrono::nanoseconds(0);
-    }
-    if (claim_.works() && world_.RunsInRounds() && NextRound()) {
+    const bool has_round = claim_.works() && world_.RunsInRounds() && NextRound();
+    if (has_round || shape_builder_->has_finished() || full_batches_.last_was_full()) {
       return std::chrono::nanoseconds(0);
     }
     std::int64_t due = schedule_.next_ns();
@@ -181,15 +180,13 @@ class Daemon::Implementation {
     const std::int64_t now_ns = world_.monotonic_ns();
     for (const v1::Input& input : inputs) {
       if (input.has_simulator_clock()) claim_.HearOfTerm(input.simulator_clock().service_term());
-      if (input.has_event_heard() && !publisher_.speaks()) publisher_.Hear(input.event_heard());
+      if (input.has_event_heard()) publisher_.Hear(input.event_heard());
       if (input.has_service_heard()) HearService(input.service_heard());
     }
     const ClaimPhase before = claim_.phase();
     claim_.SetFollowed(world_.followers() > 0);
     claim_.Update(now_ns);
-    for (const std::string& conflict : claim_.Conflicts(now_ns)) {
-      Log(spdlog::level::warn, "two services in one world", conflict);
-    }
+    services_.Write(claim_.Conflicts(now_ns), now_ns);
     intake_.SetContended(claim_.IsContended(now_ns));
     if (claim_.phase() != before) ChangePhase(before);
     if (claim_.phase() == ClaimPhase::kStandby) rounds_.StandBy(heard_granted_);
@@ -198,15 +195,14 @@ class Daemon::Implementation {
   }
 
   void HearService(const v1::ServiceHeard& heard) {
+    services_.Hear(heard, world_.monotonic_ns());
     if (heard.ended()) return claim_.HearEnd(heard.service_id());
     claim_.Hear(HeardOf(heard), world_.monotonic_ns());
-    if (heard.phase() != v1::PHASE_SERVING) return;
+    if (heard.phase() != v1::PHASE_SERVING || claim_.phase() == ClaimPhase::kServing) return;
     heard_granted_ = Instant::FromNanoseconds(heard.granted_until_ns());
-    if (claim_.phase() == ClaimPhase::kStandby &&
-        readiness_.Hear(heard, detector_.agents(), world_.newest())) {
-      spdlog::info("is ready to take over");
-      schedule_.Hasten();
-    }
+    if (!advanced_to_ && world_.FollowEpoch(heard.epoch())) publisher_.BeginEpoch(world_.epoch());
+    if (claim_.phase() != ClaimPhase::kStandby) return;
+    if (services_.HearOfWork(heard, detector_.agents(), world_.newest())) schedule_.Hasten();
   }
 
   void ChangePhase(ClaimPhase before) {
@@ -215,9 +211,9 @@ class Daemon::Implementation {
       case ClaimPhase::kServing:
         bus_.EndHold(before == ClaimPhase::kWaking);
         if (before == ClaimPhase::kWaking) return;
+        if (before == ClaimPhase::kStandby) services_.LogTakeOver(world_.monotonic_ns());
         BeginTerm();
         if (before != ClaimPhase::kStandby) return;
-        if (!readiness_.ready()) spdlog::warn("takes over unready: contacts may be lost");
         world_.TakeOver();
         reports_ = {};  // everybody is told anew what holds
         return publisher_.TakeOver();
@@ -277,10 +273,7 @@ class Daemon::Implementation {
   void FollowStep(const ClockStep& step) {
     ++steps_.clock_steps;
     steps_.last_clock_step = StepText(step);
-    Log(spdlog::level::warn, "wall clock was set",
-        steps_.last_clock_step + (step.breaks
-                                      ? ", by more than clock.skew_max_s: all promises are void"
-                                      : ", within clock.skew_max_s: promises hold"));
+    Log(spdlog::level::warn, "wall clock was set", steps_.last_clock_step);
     if (!step.breaks) return;
     intake_.ExpelAgents();
     CloseEpoch("the wall clock was set; agents come back with their next states");
@@ -383,20 +376,20 @@ class Daemon::Implementation {
                     .shapes = shapes_,
                     .rejections = rejections_,
                     .event_log = publisher_.event_log(),
+                    .bus = bus_,
                     .events = publisher_.event_counters(),
                     .steps = steps_,
                     .queries_per_second = query_rate_.Take(counted.queries, world_.monotonic_ns()),
-                    .network = bus_.network_counters(),
+                    .configuration = services_.configuration(),
                     .extensions = Extensions()}));
   }
 
   std::vector<v1::KeyValue> Extensions() const {
     std::vector<v1::KeyValue> extensions;
+    services_.AddExtensions(claim_.phase() == ClaimPhase::kStandby, &extensions);
     silence_report_.AddExtensions(&extensions);
     operators_.AddExtensions(&extensions);
     shares_.AddExtensions(&extensions);
-    const bool stands_by = claim_.phase() == ClaimPhase::kStandby;
-    if (stands_by) AddText("standby", readiness_.ready() ? "ready" : "not ready", &extensions);
     AddText("state_failure", state_failure_, &extensions);
     AddText("recording_failure", recorder_.failure(), &extensions);
     if (quarantine_ != nullptr) AddText("quarantine", quarantine_->Summary(), &extensions);
@@ -412,7 +405,7 @@ class Daemon::Implementation {
   Quarantine* const quarantine_;  ///< Null: none.
   std::string state_failure_;     ///< Empty: what must be kept is kept.
   ServiceClaim claim_;
-  StandbyReadiness readiness_;
+  ServiceReport services_;
   const std::function<bool()> progress_;  ///< As in DaemonParts.
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   World world_;

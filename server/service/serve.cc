@@ -12,9 +12,11 @@
 #include <thread>
 #include <utility>
 
+#include "idl/identity.h"
 #include "server/bus/system_clock.h"
 #include "server/config/config.h"
 #include "server/process/logging.h"
+#include "server/process/process_text.h"
 #include "server/process/service_notify.h"
 #include "server/process/stop_signals.h"
 #include "server/process/version.h"
@@ -114,6 +116,7 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
        .open_journal = std::move(parts.open_journal),
        .quarantine = parts.quarantine,
        .state_failure = parts.state_failure,
+       .process = ProcessText(),
        .claim = parts.claim,
        .progress = [&] {
          const auto now = std::chrono::steady_clock::now();
@@ -123,8 +126,8 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
   const StopSignalWatcher signals(
       [&daemon] { daemon.Stop(); }, kStepPatience,
       [recorder, quarantine = parts.quarantine] { EndInTheStep(recorder, quarantine); });
-  spdlog::info("collisiond {}, instance {:016x}, claims world \"{}\" on domain {}", Version(),
-               parts.claim.instance, config.world(), config.domain());
+  spdlog::info("collisiond {}, service {} ({}), claims world \"{}\" on domain {}", Version(),
+               IdText(parts.claim.instance), ProcessText(), config.world(), config.domain());
   if (parts.journal == nullptr && !has_journal_later)
     spdlog::info("no journal: nothing is kept for the next start");
   spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and evaluation",

@@ -104,8 +104,10 @@ std::vector<Awaited> Silence::Waited(const Simulators& simulators, std::int64_t 
       waited.push_back({simulator.name(), WaitReason::kStands});
     }
   }
-  for (const std::string& name : roster_.missing()) {
-    waited.push_back({name, WaitReason::kMissing});
+  for (const auto& [id, entry] : roster_.entries()) {
+    const auto there = simulators.find(id);
+    const bool lives = there != simulators.end() && there->second.alive();
+    waited.push_back({entry.name, lives ? WaitReason::kFollows : WaitReason::kMissing});
   }
   std::sort(waited.begin(), waited.end());
   return waited;

@@ -311,6 +311,12 @@ void World::BeginEpoch() {
   granted_ = heard_granted_ = promised_from_ = Instant::Always();
 }
 
+bool World::FollowEpoch(std::uint32_t epoch) {
+  const bool is_higher = epoch > epoch_;
+  epoch_ = std::max(epoch_, epoch);
+  return is_higher;
+}
+
 void World::BeginWallEpoch() {
   for (auto& [id, simulator] : simulators_) simulator.RestartTime();
   widenings_.Clear();

@@ -158,6 +158,10 @@ class World {
 
   std::uint32_t epoch() const { return epoch_; }  ///< From 1.
 
+  /// The service that serves this world is in this epoch. Requires that nothing was detected in
+  /// ours. True: ours was a lower one.
+  bool FollowEpoch(std::uint32_t epoch);
+
   bool simulated() const { return simulated_; }
   bool started() const { return started_; }  ///< There is a `now`; nothing happens before.
   Instant now() const { return now_; }

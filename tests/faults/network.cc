@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "idl/service_heard.h"
+
 namespace collision::faults {
 namespace {
 
@@ -20,16 +22,7 @@ v1::Input HeardOf(const v1::Output& output) {
     *input.mutable_event_heard() = output.collision_event();
     return input;
   }
-  const v1::ServiceStatus& status = output.service_status();
-  v1::ServiceHeard& heard = *input.mutable_service_heard();
-  heard.set_service_id(status.stamp().service_id());
-  heard.set_term(status.stamp().term());
-  heard.set_sequence(status.stamp().sequence());
-  heard.set_phase(status.phase());
-  heard.set_granted_until_ns(status.granted_until_ns());
-  heard.set_followed(status.followers() > 0);
-  heard.set_now_ns(status.now_ns());
-  heard.set_agents(status.agents());
+  *input.mutable_service_heard() = collision::HeardOf(output.service_status());
   return input;
 }
 

@@ -70,11 +70,15 @@ TEST(DdsBusFlood, OneThatGoesOnIsIgnoredAndNamed) {
     warnings = bus.TakeWarnings();
   }
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0], "a program in partition \"" + TestWorld() +
-                             ".hostile\" writes more than it may: it is ignored for 10 s");
+  EXPECT_EQ(warnings[0], "simulator \"hostile\" writes more than it may: it is ignored for 10 s");
   EXPECT_EQ(bus.counters().senders_ignored, 1u);
   EXPECT_GT(bus.counters().samples_refused, dds::kRefusedMax);
   EXPECT_TRUE(bus.TakeWarnings().empty());
+  const std::vector<std::string> flooding = bus.flooding();
+  ASSERT_EQ(flooding.size(), 1u);
+  EXPECT_TRUE(flooding[0].starts_with("simulator \"hostile\": ")) << flooding[0];
+  EXPECT_NE(flooding[0].find(" messages dropped; 0 wait; ignored for "), std::string::npos)
+      << flooding[0];
 }
 
 /// As large as a message can become: negative integers take the most bytes.

@@ -17,5 +17,11 @@ TEST(SimulatorId, CountsBytesAboveAsciiAsUnsigned) {
   EXPECT_EQ(SimulatorId("\xff"), (0xcbf29ce484222325u ^ 0xffu) * 0x100000001b3u);
 }
 
+TEST(Identity, AsTextHasSixteenDigits) {
+  EXPECT_EQ(IdText(0), "0000000000000000");
+  EXPECT_EQ(IdText(0xab), "00000000000000ab");
+  EXPECT_EQ(IdText(0xfedcba9876543210), "fedcba9876543210");
+}
+
 }  // namespace
 }  // namespace collision

@@ -204,5 +204,45 @@ TEST(SenderQueues, OfOneKeyTooOnlyTheFirstThatWaitsIsWorthWakingAnybody) {
   EXPECT_EQ(Taken(&queues, kNoLimit, kSecond), std::vector<int>{2});
 }
 
+// Goal:   what a flood loses is told by sender, of nobody else, and for a minute after it is over.
+TEST(SenderQueues, TellWhatASenderLosesAndForHowLongItIsIgnored) {
+  Queues queues({.waiting_bytes_max = 100 * (100 + kSampleOverhead)});
+  std::int64_t now_ns = 0;
+  queues.Put(Of(2, 0), -1, now_ns);
+  std::uint64_t key = 0;
+  while (queues.Put(Of(1, key++), 0, now_ns) != Outcome::kIgnoredFromNow) {
+  }
+  std::vector<SenderLoss> losses = queues.Losses(now_ns);
+  ASSERT_EQ(losses.size(), 1u);
+  EXPECT_EQ(losses[0].sender, 1u);
+  EXPECT_EQ(losses[0].dropped, key) << "all that it wrote";
+  EXPECT_EQ(losses[0].waiting, 0u);
+  EXPECT_EQ(losses[0].ignored_for_ns, kIgnoredFor);
+  now_ns += kSecond;
+  queues.Put(Of(1, key), 0, now_ns);
+  losses = queues.Losses(now_ns);
+  EXPECT_EQ(losses[0].dropped, key + 1);
+  EXPECT_EQ(losses[0].ignored_for_ns, kIgnoredFor - kSecond);
+  now_ns += kLossToldFor;
+  Taken(&queues, kNoLimit, now_ns);
+  EXPECT_EQ(queues.Losses(now_ns).size(), 1u);
+  EXPECT_TRUE(queues.Losses(now_ns + 1).empty());
+}
+
+// Goal:   the one that gives way for others has lost something, too; one of which much waits is
+//         told before it loses anything; what is counted begins anew after a minute.
+TEST(SenderQueues, TellOfThoseThatGiveWayAndOfThoseThatAreBehind) {
+  Queues queues({.waiting_bytes_max = 100 * (100 + kSampleOverhead)});
+  for (std::uint64_t key = 0; key < 100; ++key) queues.Put(Of(1, key), 0, 0);
+  ASSERT_EQ(queues.Losses(0).size(), 1u) << "a quarter of all waits";
+  EXPECT_EQ(queues.Losses(0)[0].dropped, 0u);
+  EXPECT_EQ(queues.Losses(0)[0].waiting, 100u);
+  queues.Put(Of(2, 0), 0, 0);
+  EXPECT_EQ(queues.Losses(0)[0].dropped, 1u);
+  const std::int64_t later_ns = kLossToldFor + 1;
+  for (std::uint64_t key = 0; key < 3; ++key) queues.Put(Of(3, key), 0, later_ns);
+  EXPECT_EQ(queues.Losses(later_ns)[0].dropped, 3u);
+}
+
 }  // namespace
 }  // namespace collision::dds

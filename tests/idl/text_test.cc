@@ -29,5 +29,10 @@ TEST(Utf8, EachStrayByteBecomesAQuestionMark) {
   EXPECT_EQ(Utf8("\xe2\x82z\xc3\xa9"), "??z\xc3\xa9");
 }
 
+TEST(Printable, LeavesNothingThatBreaksALineOrATerminal) {
+  EXPECT_EQ(Printable("pid 1 on host-a"), "pid 1 on host-a");
+  EXPECT_EQ(Printable("a\nb\x1b[2Jc\x7f\xc3\xa4"), "a?b?[2Jc???");
+}
+
 }  // namespace
 }  // namespace collision::dds

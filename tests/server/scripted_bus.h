@@ -28,6 +28,7 @@ class ScriptedBus final : public Bus, public Clock {
   void Wake() override { woken = true; }
   std::uint32_t earliest_readers() const override { return earliest_read_by; }
   std::vector<v1::Counter> network_counters() const override { return counters; }
+  std::vector<std::string> flooding() const override { return floods; }
   ClockReading Read() override {
     return {.wall_ns = wall_ns,
             .monotonic_ns = monotonic_ns,
@@ -43,6 +44,7 @@ class ScriptedBus final : public Bus, public Clock {
   std::vector<v1::Input> next;
   std::vector<v1::Output> outputs;
   std::vector<v1::Counter> counters;
+  std::vector<std::string> floods;
   std::int64_t wall_ns = 1'700'000'000'000'000'000;
   std::int64_t monotonic_ns = 0;
   bool wall_was_set = false;  ///< What the next reading says.

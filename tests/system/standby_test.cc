@@ -54,9 +54,12 @@ class StandbyTest : public testing::Test {
 TEST_F(StandbyTest, TakesOverFromOneThatIsKilled) {
   ASSERT_NO_FATAL_FAILURE(Start());
   ASSERT_NO_FATAL_FAILURE(AwaitEvent("confirmed"));
+  EXPECT_TRUE(first_->WaitForOutput("has become a standby in this world")) << first_->err();
   first_->Signal(SIGKILL);
   ExpectOneContact();
   ExpectTakeOver();
+  EXPECT_TRUE(Contains(second_->err(), "takes over from service ")) << second_->err();
+  EXPECT_FALSE(Contains(second_->err(), "start it again, or evict it")) << second_->err();
 }
 
 TEST_F(StandbyTest, OneThatStoodStillFindsItselfReplaced) {

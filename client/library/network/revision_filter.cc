@@ -11,8 +11,10 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
   const bool is_contact = event.contacts_sequence() > 0;
   if (is_contact ? !contacts->Take(event.contacts_sequence()) : !IsForecast(event.status()))
     return false;
+  // What has come of an earlier epoch is history.
+  if (IsPast(event.stamp())) return is_contact;
   const Pair pair{Id(event.lower()), Id(event.higher())};
-  Known* known = Find(pair);
+  Known* known = known_.Find(pair);
   const Revision revision{
       event.stamp().service_id(),  event.contact(),          event.revision(), event.status(),
       event.begin().earliest_ns(), event.begin().latest_ns()};
@@ -39,11 +41,7 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
   Known next = known != nullptr ? *known : Known();
   next.newest = revision;
   if (is_contact) next.last_contact = revision;
-  if (known_.size() >= kPairsMax) {
-    earlier_ = std::move(known_);
-    known_.clear();
-  }
-  known_[pair] = next;
+  known_.Touch(pair) = next;
   return !repeated;
 }
 
@@ -70,10 +68,13 @@ bool RevisionFilter::IsOutdated(const v1::CollisionEvent& event, const Known& kn
          std::pair(known.newest.contact, known.newest.revision);
 }
 
-RevisionFilter::Known* RevisionFilter::Find(const Pair& pair) {
-  if (const auto found = known_.find(pair); found != known_.end()) return &found->second;
-  const auto found = earlier_.find(pair);
-  return found != earlier_.end() ? &found->second : nullptr;
+/// Whether it is of an earlier epoch than the newest event. With a later one all is forgotten.
+bool RevisionFilter::IsPast(const v1::ServiceStamp& stamp) {
+  if (stamp.service_id() == service_ && stamp.epoch() < epoch_) return true;
+  if (stamp.epoch() > epoch_) known_.Clear();
+  service_ = stamp.service_id();
+  epoch_ = stamp.epoch();
+  return false;
 }
 
 RevisionFilter::Agent RevisionFilter::Id(const v1::AgentId& id) {

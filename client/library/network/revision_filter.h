@@ -3,11 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <tuple>
 #include <utility>
 
 #include "client/library/network/contact_sequence.h"
+#include "collision_core/base/recent_map.h"
 #include "idl/messages.pb.h"
 
 namespace collision::client {
@@ -18,7 +18,8 @@ bool IsForecast(v1::EventStatus status);
 /// Makes one stream of the two topics: each revision once, no forecast after a later revision of
 /// its pair, every contact. A service counts revisions from 1 for each contact. One that takes over
 /// goes on with the contacts of the one before it and tells once more what stands: of the same
-/// contact the same status and begin, a forecast that does not begin earlier.
+/// contact the same status and begin, a forecast that does not begin earlier. In another epoch it
+/// counts all anew; one that was started again may count epochs anew, too.
 class RevisionFilter {
  public:
   /// Pairs that are remembered; beyond twice as many those heard of longest ago are forgotten, and
@@ -55,10 +56,12 @@ class RevisionFilter {
   static Agent Id(const v1::AgentId& id);
   static bool IsOutdated(const v1::CollisionEvent& event, const Known& known);
   static bool IsRepeated(const v1::CollisionEvent& event, const Known& known);
-  Known* Find(const Pair& pair);
+  bool IsPast(const v1::ServiceStamp& stamp);
 
   std::uint64_t contacts_repeated_ = 0;
-  std::map<Pair, Known> known_, earlier_;  ///< When the first is full it takes the other's place.
+  std::uint64_t service_ = 0;  ///< Of the newest event ...
+  std::uint32_t epoch_ = 0;    ///< ... and its epoch.
+  RecentMap<Pair, Known> known_{kPairsMax};
 };
 
 }  // namespace collision::client

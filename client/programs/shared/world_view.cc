@@ -1,13 +1,13 @@
 #include "client/programs/shared/world_view.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <set>
 #include <tuple>
 #include <utility>
 
 #include "client/library/network/conversion.h"
+#include "idl/identity.h"
 #include "idl/limits.h"
 #include "idl/shape_bytes.h"
 
@@ -308,9 +308,7 @@ std::string WorldView::SimulatorName(std::uint64_t id) const {
   if (status != nullptr && !status->name().empty()) return status->name();
   const auto kept = simulator_names_.find(id);
   if (kept != simulator_names_.end()) return kept->second;
-  char text[20];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(id));
-  return text;
+  return IdText(id);
 }
 
 }  // namespace collision::client

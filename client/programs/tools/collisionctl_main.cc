@@ -14,6 +14,7 @@
 #include "client/programs/tools/collisionctl/json_pages.h"
 #include "client/programs/tools/collisionctl/operator_request.h"
 #include "client/programs/tools/collisionctl/service_notes.h"
+#include "client/programs/tools/collisionctl/status_page.h"
 #include "client/programs/tools/collisionctl/text_pages.h"
 #include "client/programs/tools/sphere_tree/command.h"
 #include "idl/limits.h"

@@ -1,5 +1,6 @@
 #include "idl/dds/inbox/inbox.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <type_traits>
@@ -124,7 +125,7 @@ void Inbox::Put(const History& history, const ddsi_writer_info& writer, ddsi_ser
   {
     const std::lock_guard lock(mutex_);
     const NewWriter known{history.topic, facts.sender, writer.iid};
-    if (writers_.insert(writer.iid).second) new_writers_.push_back(known);
+    if (writers_.try_emplace(writer.iid, known).second) new_writers_.push_back(known);
     using enum SenderQueues<ArrivedSample>::Outcome;
     const std::int64_t now_ns = Now();
     const auto outcome = queues_.Put(facts, std::move(sample), now_ns);
@@ -163,6 +164,19 @@ std::vector<NewWriter> Inbox::TakeNewWriters() {
 std::vector<IgnoredSender> Inbox::TakeIgnoredSenders() {
   const std::lock_guard lock(mutex_);
   return std::exchange(ignored_, {});
+}
+
+std::vector<InboxLoss> Inbox::Losses() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<InboxLoss> losses;
+  for (const SenderLoss& loss : queues_.Losses(Now())) {
+    const auto writer = std::find_if(writers_.begin(), writers_.end(), [&](const auto& known) {
+      return known.second.sender == loss.sender;
+    });
+    losses.push_back({{}, loss});
+    if (writer != writers_.end()) losses.back().writer = writer->second;
+  }
+  return losses;
 }
 
 std::optional<std::int64_t> Inbox::UntilReady() {

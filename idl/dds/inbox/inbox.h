@@ -3,10 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "dds/dds.h"
@@ -43,6 +43,12 @@ struct IgnoredSender {
   std::int64_t for_ns;
 };
 
+/// What a sender loses, or is about to.
+struct InboxLoss {
+  std::optional<NewWriter> writer;  ///< One of its writers; nullopt: all have left.
+  SenderLoss loss;
+};
+
 /// The history cache of several readers. That of Cyclone DDS keeps an instance for every key ever
 /// written or disposed of while its writer lives, hands samples on instance by instance, and
 /// knows no senders; this one keeps what waits, in SenderQueues, and nothing else. A reader with it
@@ -68,6 +74,9 @@ class Inbox {
 
   std::vector<IgnoredSender> TakeIgnoredSenders();
 
+  /// As SenderQueues::Losses().
+  std::vector<InboxLoss> Losses() const;
+
   /// How long until something can be taken [ns]; nullopt: nothing waits.
   std::optional<std::int64_t> UntilReady();
 
@@ -88,7 +97,7 @@ class Inbox {
   // All below are guarded by mutex_.
   bool triggered_ = false;  ///< The guard condition, since the last Take().
   SenderQueues<ArrivedSample> queues_;
-  std::set<dds_instance_handle_t> writers_;
+  std::map<dds_instance_handle_t, NewWriter> writers_;
   std::vector<NewWriter> new_writers_;
   std::vector<IgnoredSender> ignored_;
   std::size_t waiting_most_ = 0;  ///< Since the last relief [bytes].

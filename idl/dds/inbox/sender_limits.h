@@ -35,4 +35,7 @@ inline constexpr std::size_t kRefusedMax = 65536;
 inline constexpr std::int64_t kIgnoredFor = 10'000'000'000;
 inline constexpr std::int64_t kIgnoredForMax = 3'600'000'000'000;
 
+/// How long it is told what a sender has lost, after it lost something for the last time [ns].
+inline constexpr std::int64_t kLossToldFor = 60'000'000'000;
+
 }  // namespace collision::dds

@@ -33,6 +33,14 @@ struct SampleFacts {
   std::size_t bytes = 0;
 };
 
+/// What a sender loses, or is about to.
+struct SenderLoss {
+  std::uint64_t sender = 0;
+  std::uint64_t dropped = 0;        ///< Samples that were refused, gave way or were ignored.
+  std::size_t waiting = 0;          ///< Samples.
+  std::int64_t ignored_for_ns = 0;  ///< From now on; 0: it is not.
+};
+
 /// First in, first out for each sender, the newest `depth` samples of each key; all senders get
 /// equal shares of what is taken at once. Keeps the SenderLimits. Nothing but waiting samples takes
 /// memory, so keys may be ever new: an ordered map finds them, since whoever writes them chooses
@@ -55,12 +63,12 @@ class SenderQueues {
   Outcome Put(const SampleFacts& facts, Item item, std::int64_t now_ns) {
     Queue& queue = queues_.try_emplace(facts.sender, NewQueue(now_ns)).first->second;
     if (now_ns < queue.ignored_until_ns) {
-      ++refused_;
+      CountDropped(1, &queue, now_ns);
       return Outcome::kIgnored;
     }
     const bool first = queue.order.empty();
     Replace(facts, &queue);
-    if (!MakeRoom(facts.bytes + kSampleOverhead, &queue)) return Refuse(&queue, now_ns);
+    if (!MakeRoom(facts.bytes + kSampleOverhead, &queue, now_ns)) return Refuse(&queue, now_ns);
     Append(facts.key, {facts.key, facts.bytes, std::move(item), {}}, &queue);
     Refill(&queue, now_ns);
     return first || Ready(queue) ? Outcome::kWaits : Outcome::kOverRate;
@@ -109,6 +117,17 @@ class SenderQueues {
     return std::max<std::int64_t>(found->second.ignored_until_ns - now_ns, 0);
   }
 
+  /// The senders that have lost something within kLossToldFor, or of which so much waits that only
+  /// the newest sample of each key is kept. Counts are of that time.
+  std::vector<SenderLoss> Losses(std::int64_t now_ns) const {
+    std::vector<SenderLoss> losses;
+    for (const auto& [sender, queue] : queues_) {
+      if (!HasLost(queue, now_ns) && !IsBehind(queue)) continue;
+      losses.push_back({sender, queue.dropped, queue.order.size(), IgnoredFor(sender, now_ns)});
+    }
+    return losses;
+  }
+
   /// Drops all that waits.
   void Clear() {
     queues_.clear();
@@ -142,6 +161,8 @@ class SenderQueues {
     std::int64_t refilled_ns = 0;
     std::size_t refused = 0;
     std::int64_t ignored_for_ns = 0, ignored_until_ns = 0;
+    std::uint64_t dropped = 0;
+    std::int64_t dropped_ns = 0;  ///< The last one, if there was one.
   };
   struct Budget {
     std::size_t samples, bytes;
@@ -194,9 +215,7 @@ class SenderQueues {
   }
 
   void Replace(const SampleFacts& facts, Queue* queue) {
-    const bool behind =
-        queue->order.size() >= kBehind || queue->waiting_bytes >= limits_.waiting_bytes_max / 4;
-    const std::size_t depth = behind ? 1 : facts.depth;
+    const std::size_t depth = IsBehind(*queue) ? 1 : facts.depth;
     for (auto of_key = queue->keys.find(facts.key);
          of_key != queue->keys.end() && of_key->second.count >= depth;
          of_key = queue->keys.find(facts.key)) {
@@ -206,7 +225,7 @@ class SenderQueues {
 
   /// Where memory is full, the sender of which most waits loses its oldest sample, unless it is the
   /// one that wants room or would then have less than that.
-  bool MakeRoom(std::size_t cost, Queue* queue) {
+  bool MakeRoom(std::size_t cost, Queue* queue, std::int64_t now_ns) {
     while (waiting_bytes_ + cost > limits_.waiting_bytes_max) {
       Queue& largest = std::max_element(queues_.begin(), queues_.end(), [](auto& a, auto& b) {
                          return a.second.waiting_bytes < b.second.waiting_bytes;
@@ -214,18 +233,21 @@ class SenderQueues {
       if (largest.waiting_bytes <= queue->waiting_bytes + cost) return false;
       Erase(largest.order.begin(), &largest);
       ++largest.refused;
-      ++refused_;
+      CountDropped(1, &largest, now_ns);
     }
     return true;
   }
 
   Outcome Refuse(Queue* queue, std::int64_t now_ns) {
-    ++refused_;
+    CountDropped(1, queue, now_ns);
     if (++queue->refused <= kRefusedMax) return Outcome::kRefused;
-    refused_ += queue->order.size();
+    CountDropped(queue->order.size(), queue, now_ns);
     waiting_bytes_ -= queue->waiting_bytes;
     const std::int64_t twice = std::min(2 * queue->ignored_for_ns, kIgnoredForMax);
+    const std::uint64_t dropped = queue->dropped;
     *queue = NewQueue(now_ns);
+    queue->dropped = dropped;
+    queue->dropped_ns = now_ns;
     queue->ignored_for_ns = std::max(twice, kIgnoredFor);
     queue->ignored_until_ns = now_ns + queue->ignored_for_ns;
     return Outcome::kIgnoredFromNow;
@@ -252,10 +274,25 @@ class SenderQueues {
     queue->order.erase(sample);
   }
 
+  void CountDropped(std::size_t samples, Queue* queue, std::int64_t now_ns) {
+    refused_ += samples;
+    if (!HasLost(*queue, now_ns)) queue->dropped = 0;
+    queue->dropped += samples;
+    queue->dropped_ns = now_ns;
+  }
+
+  static bool HasLost(const Queue& queue, std::int64_t now_ns) {
+    return queue.dropped > 0 && now_ns - queue.dropped_ns <= kLossToldFor;
+  }
+
+  bool IsBehind(const Queue& queue) const {
+    return queue.order.size() >= kBehind || queue.waiting_bytes >= limits_.waiting_bytes_max / 4;
+  }
+
   /// A sender that has nothing to hide behind a new queue.
   bool IsForgotten(const Queue& queue, std::int64_t now_ns) const {
     const std::int64_t since = now_ns - queue.ignored_until_ns;
-    return queue.order.empty() && queue.samples_left >= SamplesMax() &&
+    return queue.order.empty() && !HasLost(queue, now_ns) && queue.samples_left >= SamplesMax() &&
            queue.bytes_left >= BytesMax() && (queue.ignored_for_ns == 0 || since > kIgnoredForMax);
   }
 

@@ -121,7 +121,8 @@ dds::SenderLimits SenderLimitsOf(const v1::Config& config) {
 std::unique_ptr<Quarantine> OpenQuarantine(const v1::Config& config, const Journal* journal) {
   if (journal == nullptr) return nullptr;
   try {
-    return std::make_unique<Quarantine>(config.state_dir(), config.world(), config.domain());
+    return std::make_unique<Quarantine>(config.state_dir(), config.world(), config.domain(),
+                                        journal->simulators());
   } catch (const std::runtime_error& error) {
     spdlog::warn("{}; a message that fails the service is not recognised at the next start",
                  error.what());

@@ -32,6 +32,7 @@ class Roster {
 
   bool complete() const { return missing_.empty(); }
   std::vector<std::string> missing() const;  ///< Names.
+  const std::map<std::uint64_t, JournalledSimulator>& entries() const { return missing_; }
   bool IsMissing(std::uint64_t id) const { return missing_.contains(id); }
 
   /// Why a message of this run is refused, with the allowed range; nullopt: it is not. A run lower

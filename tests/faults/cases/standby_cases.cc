@@ -1,4 +1,6 @@
 // Two services, one of which stands by: nothing is lost, nothing is told twice.
+#include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <tuple>
@@ -17,18 +19,25 @@ constexpr std::int64_t kTold = 50 * kMillisecond;    // after it a standby is he
 /// What a reader was told of contacts: pair, number of its contact, status.
 using Told = std::multiset<std::tuple<std::string, std::string, std::uint32_t, int>>;
 
-/// Of narrower brackets of one contact only the first. A standby that joins late counts from where
-/// it joins, and its numbers count only as far as readers know them.
+/// A contact that is confirmed again with a bracket of less than half the width is not told twice.
+/// A standby that joins late counts from where it joins, and its numbers count only as far as
+/// readers know them.
 Told ToldTo(const MonitorProgram& monitor, bool numbered) {
-  Told told, numbers;
+  Told told;
+  std::map<Told::value_type, std::int64_t> widths;  // of the begin of what is confirmed
   for (const MonitoredEvent& heard : monitor.heard()) {
     const v1::CollisionEvent& event = heard.event;
     if (event.contacts_sequence() == 0) continue;
     const auto one =
         std::tuple(event.lower().SerializeAsString(), event.higher().SerializeAsString(),
                    event.contact(), static_cast<int>(event.status()));
-    if (event.status() == v1::EVENT_CONFIRMED && numbers.contains(one)) continue;
-    numbers.insert(one);
+    if (event.status() == v1::EVENT_CONFIRMED) {
+      const std::int64_t width = event.begin().latest_ns() - event.begin().earliest_ns();
+      const auto [known, is_first] = widths.try_emplace(one, width);
+      const bool is_narrower = 2 * width < known->second;
+      known->second = std::min(known->second, width);
+      if (!is_first && is_narrower) continue;
+    }
     told.insert({std::get<0>(one), std::get<1>(one), numbered ? event.contact() : 0,
                  static_cast<int>(event.status())});
   }

@@ -133,6 +133,57 @@ TEST_F(JournalTest, IsOpenInOneProcessAtATime) {
   const Journal of_another_domain(folder_, "lab", 8, kSimulatorsMax);
 }
 
+// A machine that loses its power may keep an old record beside the new one of a simulator.
+TEST_F(JournalTest, OfTwoRecordsOfASimulatorTheHigherRunAndGrantCount) {
+  const auto bytes_of = [this](std::size_t record) {
+    std::ifstream file(path(), std::ios::binary);
+    std::string bytes(kRecordBytes, '\0');
+    file.seekg(static_cast<std::streamoff>(record * kRecordBytes));
+    file.read(bytes.data(), kRecordBytes);
+    return bytes;
+  };
+  const JournalledSimulator low = Simulator(5, 10), high = Simulator(5, 20);
+  JournalledSimulator later = low;
+  ++later.run;
+  const std::pair<JournalledSimulator, JournalledSimulator> cases[] = {
+      {low, high}, {high, low}, {high, later}, {later, high}};
+  for (const auto& [first, second] : cases) {
+    std::filesystem::remove(path());
+    std::string old;
+    {
+      Journal journal = Open();
+      journal.SetTerm(1, 1);
+      journal.Put(first);
+      old = bytes_of(1);
+      journal.Remove(5);
+      journal.Put(Simulator(6, 0));
+      journal.Put(second);
+      journal.Remove(6);
+    }
+    std::fstream(path(), std::ios::in | std::ios::out | std::ios::binary)
+        .seekp(kRecordBytes)
+        .write(old.data(), kRecordBytes);
+    const bool first_counts =
+        std::pair(first.run, first.granted) > std::pair(second.run, second.granted);
+    const JournalledSimulator& expected = first_counts ? first : second;
+    {
+      Journal journal = Open();
+      EXPECT_EQ(journal.simulators(),
+                (std::map<std::uint64_t, JournalledSimulator>{{5, expected}}));
+      EXPECT_EQ(journal.damage(),
+                std::vector<std::string>{path() +
+                                         ": byte 256: simulator \"simulator-5\" has "
+                                         "another record before this one: the higher run and grant "
+                                         "counts"});
+      EXPECT_TRUE(journal.SetTerm(2, 1));
+      EXPECT_TRUE(journal.Remove(5));
+    }
+    const Journal after = Open();
+    EXPECT_TRUE(after.simulators().empty()) << "the other record comes back";
+    EXPECT_TRUE(after.damage().empty());
+  }
+}
+
 TEST_F(JournalTest, ADamagedRecordIsToldAndTheOthersStay) {
   {
     Journal journal = Open();

@@ -289,35 +289,6 @@ TEST(Config, ContradictingFieldsAreRefused) {
   }
 }
 
-// Goal:   a block of limits allows no more than the world; each error names block and field, and
-//         what is printed loads again.
-TEST(Config, BlocksOfLimitsAreChecked) {
-  const std::pair<const char*, const char*> cases[] = {
-      {"limits { name: \"drone-*\" agents_max: 100 guaranteed: 0.5 }", ""},
-      {"limits { name: \"a\" } limits { name: \"*\" pairs_max: 1 }", ""},
-      {"limits { agents_max: 1 }", "F:1: limits[0].name: "},
-      {"limits { name: \"a.b\" }", "F:1: limits[0].name: "},
-      {"agents_max: 10 \n limits { name: \"a\" agents_max: 11 }", "F:2: limits[0].agents_max: "},
-      {"limits { name: \"a\" shapes_max: 0 }", "F:1: limits[0].shapes_max: "},
-      {"limits { name: \"a\" guaranteed: 1.5 }", "F:1: limits[0].guaranteed: "},
-      {"limits { name: \"a\" guaranteed: nan }", "F:1: limits[0].guaranteed: "},
-      {"limits { name: \"a\" agents: 1 }", "F:1: limits.agents: "},
-      {"limits { name: \"a\" guaranteed: 0.6 }\nlimits { name: \"b\" guaranteed: 0.5 }",
-       "F:2: limits[1].guaranteed: "}};
-  for (const auto& [text, error] : cases) {
-    const ConfigResult result = ParseConfig(text, "F");
-    const std::string first = result.ok() ? "" : result.errors[0];
-    EXPECT_EQ(result.errors.size(), *error ? 1u : 0u) << text << first;
-    EXPECT_TRUE(first.starts_with(error)) << first;
-    if (!result.ok()) continue;
-    const ConfigResult again = ParseConfig(PrintConfig(result.config), "F");
-    EXPECT_EQ(again.config.SerializeAsString(), result.config.SerializeAsString());
-  }
-  std::string many;
-  for (int i = 0; i < 65; ++i) many += "limits { name: \"a*\" }";
-  EXPECT_EQ(ParseConfig(many, "F").errors.size(), 1u);
-}
-
 std::string RandomValue(const ConfigOption& option, Random& random) {
   const bool seconds = option.unit == "s";
   if (option.path == "world") return "\"w" + std::to_string(random.Below(1000)) + "\"";

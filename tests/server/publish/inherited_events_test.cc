@@ -25,6 +25,7 @@ CollisionEvent Found(std::uint32_t contact, EventStatus status, std::int64_t beg
 /// Forecasts have no sequence of contacts.
 v1::CollisionEvent Told(std::uint32_t contact, v1::EventStatus status, std::int64_t begin_ns) {
   v1::CollisionEvent event;
+  event.mutable_stamp()->set_epoch(1);
   event.mutable_lower()->set_slot(1);
   event.mutable_higher()->set_slot(2);
   event.set_contact(contact);
@@ -167,6 +168,61 @@ TEST(InheritedEvents, OfTooManyTheOldestIsGivenUp) {
   const std::vector<CollisionEvent> untold = events.TakeUntold();
   ASSERT_EQ(untold.size(), InheritedEvents::kUntoldMax);
   EXPECT_EQ(untold.front().contact, 2u);
+}
+
+/// Of a pair of its own.
+CollisionEvent InSlots(std::uint32_t slot, CollisionEvent event) {
+  event.higher.slot = slot;
+  return event;
+}
+
+// With one walk over all untold contacts for each message this would take minutes.
+TEST(InheritedEvents, WhatIsHeardCostsNothingForOtherPairs) {
+  constexpr auto kPairs = static_cast<std::uint32_t>(InheritedEvents::kUntoldMax);
+  InheritedEvents events;
+  for (std::uint32_t slot = 2; slot < 2 + kPairs; ++slot) {
+    events.Keep(InSlots(slot, Found(1, EventStatus::kConfirmed, 100)));
+  }
+  for (std::uint32_t slot = 2 + kPairs; slot-- > 12;) {
+    v1::CollisionEvent told = Told(1, v1::EVENT_CONFIRMED, 100);
+    told.mutable_higher()->set_slot(slot);
+    events.Hear(told);
+  }
+  const std::vector<CollisionEvent> untold = events.TakeUntold();
+  ASSERT_EQ(untold.size(), 10u);
+  for (std::uint32_t i = 0; i < 10; ++i)
+    EXPECT_EQ(untold[i].higher.slot, 2 + i) << "in their order";
+}
+
+v1::CollisionEvent InEpoch(std::uint32_t epoch, v1::CollisionEvent event) {
+  event.mutable_stamp()->set_epoch(epoch);
+  return event;
+}
+
+// The same scene again has the same times and numbers.
+TEST(InheritedEvents, WhatWasToldInAnotherEpochIsNotTold) {
+  InheritedEvents events;
+  events.Hear(InEpoch(1, Told(1, v1::EVENT_ENDED, 100)));
+  events.Keep(Found(2, EventStatus::kConfirmed, 500));
+  events.BeginEpoch(2);
+  EXPECT_TRUE(events.TakeTold().empty());
+  EXPECT_EQ(events.NumberOf(Found(1, EventStatus::kPossible, 90)), 1u);
+  events.Hear(InEpoch(1, Told(1, v1::EVENT_ENDED, 100)));  // It was on its way.
+  events.Keep(Found(1, EventStatus::kEnded, 100));
+  const std::vector<CollisionEvent> untold = events.TakeUntold();
+  ASSERT_EQ(untold.size(), 1u);
+  EXPECT_EQ(untold[0].contact, 1u);
+}
+
+// It may begin its epoch before this service does.
+TEST(InheritedEvents, WhatTheServiceInForceToldInItsNextEpochStaysTold) {
+  InheritedEvents events;
+  events.Hear(InEpoch(1, Told(4, v1::EVENT_ENDED, 100)));
+  events.Hear(InEpoch(2, Told(1, v1::EVENT_CONFIRMED, 100)));
+  events.BeginEpoch(2);
+  events.Keep(Found(1, EventStatus::kConfirmed, 100));
+  EXPECT_TRUE(events.TakeUntold().empty());
+  ASSERT_EQ(events.TakeTold().size(), 1u);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "server/config/config_digest.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
 
@@ -72,11 +73,13 @@ TEST(Status, TellsWhatTheServiceKnows) {
                            "tree_cache_bytes"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
-  ASSERT_EQ(status.extensions_size(), 3);
+  ASSERT_EQ(status.extensions_size(), 4);
   EXPECT_EQ(status.extensions(0).key(), "event_log_count");
   EXPECT_EQ(status.extensions(1).value(), "cbf29ce484222325");
   EXPECT_EQ(status.extensions(2).key(), "tree_builder");
   EXPECT_TRUE(status.extensions(2).value() == "octree" || status.extensions(2).value() == "fitted");
+  EXPECT_EQ(Extension(status, "lease_s"), "2");
+  EXPECT_EQ(status.configuration(), ConfigurationDigest(CompleteConfig(Harbour())));
 }
 
 // Goal:   what the network did not deliver stands among the counters, as the bus tells it.
@@ -88,6 +91,16 @@ TEST(Status, TellsTheNetworksCounters) {
     lost.set_value(value);
     EXPECT_EQ(daemon.counter("network_samples_lost"), value);
   }
+}
+
+// Goal:   a status says where its service runs, and who writes more than it may.
+TEST(Status, NamesItsProcessAndThoseThatFlood) {
+  ScriptedDaemon daemon(Harbour(), DaemonParts{.process = "pid 7 on host-a"});
+  EXPECT_EQ(Extension(daemon.status(), "process"), "pid 7 on host-a");
+  EXPECT_EQ(Extension(daemon.status(), "flooding"), "");
+  daemon.bus().floods = {"simulator \"a\": 5 messages dropped; 0 wait", "another one"};
+  EXPECT_EQ(Extension(daemon.status(), "flooding"),
+            "simulator \"a\": 5 messages dropped; 0 wait, another one");
 }
 
 // Goal:   the method is the one that the configuration asks for, and says so; AUTO says why by the

@@ -14,18 +14,6 @@ v1::Config Parsed(const std::string& text) {
   return result.config;
 }
 
-TEST(SimulatorQuotas, PatternsFitWholeNames) {
-  EXPECT_TRUE(FitsPattern("drone-1", "drone-1"));
-  EXPECT_FALSE(FitsPattern("drone-1", "drone-"));
-  EXPECT_FALSE(FitsPattern("drone-", "drone-1"));
-  EXPECT_TRUE(FitsPattern("drone-12", "drone-*"));
-  EXPECT_TRUE(FitsPattern("drone-", "drone-*"));
-  EXPECT_TRUE(FitsPattern("a-drone-b", "*dr*ne*"));
-  EXPECT_FALSE(FitsPattern("a-dron-b", "*dr*ne*"));
-  EXPECT_TRUE(FitsPattern("anything", "*"));
-  EXPECT_TRUE(FitsPattern("abab", "*ab"));
-}
-
 // Goal:   the first block that fits counts; what it leaves out, and without a block everything, is
 //         the limit of the world, with an equal part guaranteed.
 TEST(SimulatorQuotas, TheFirstBlockThatFitsCounts) {

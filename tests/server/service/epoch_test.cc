@@ -206,5 +206,31 @@ TEST_F(EpochTest, AnEpochMayBeginAtAnyTime) {
   EXPECT_EQ(daemon_.clearance(SimulatorId("alpha")).now_ns(), 2'000'000'000);
 }
 
+// Readers and standbys compare epochs of different services.
+TEST(EpochOfAStandby, IsThatOfTheServiceBesideIt) {
+  ScriptedDaemon daemon(Config(), {.claim = {.instance = 2, .stands_by = true}});
+  const auto hear = [&](std::uint32_t epoch, std::uint64_t sequence) {
+    v1::Input input;
+    v1::ServiceHeard& heard = *input.mutable_service_heard();
+    heard.set_service_id(1);
+    heard.set_term(1);
+    heard.set_phase(v1::PHASE_SERVING);
+    heard.set_epoch(epoch);
+    heard.set_sequence(sequence);
+    daemon.Step({input});
+  };
+  hear(3, 1);
+  EXPECT_EQ(daemon.status().phase(), v1::PHASE_STANDBY);
+  EXPECT_EQ(daemon.status().stamp().epoch(), 3u);
+  hear(4, 2);
+  EXPECT_EQ(daemon.status().stamp().epoch(), 4u) << "before time begins";
+  hear(2, 3);
+  EXPECT_EQ(daemon.status().stamp().epoch(), 4u);
+  const Voyage run;
+  daemon.Step(run.Told(0), 0.01);
+  hear(9, 4);
+  EXPECT_EQ(daemon.status().stamp().epoch(), 4u) << "its own time has begun";
+}
+
 }  // namespace
 }  // namespace collision::server

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "server/recording/replay.h"
+#include "tests/server/captured_log.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
 
@@ -217,6 +218,47 @@ TEST_F(QuarantineTest, AProcessThatIsKilledLeavesTheMessageThatWasBeingApplied) 
   EXPECT_EQ(batch.size(), inputs.size() - 1);
   EXPECT_FALSE(after.holds());
   EXPECT_EQ(after.suspected(), 0u);
+}
+
+// Goal:   an operator reads whose message is suspected, or that none is.
+TEST_F(QuarantineTest, LogAndStatusNameTheSimulator) {
+  const std::vector<v1::Input> inputs = WithPoison();
+  const auto killed_after = [&](std::size_t messages) {
+    std::filesystem::create_directory(folder_ + "/killed");
+    Quarantine quarantine(folder_, "lab", 0);
+    quarantine.BeginStep();
+    for (std::size_t i = 0; i < messages; ++i) quarantine.Apply(inputs[inputs.size() - 1 - i]);
+    std::filesystem::copy(quarantine.path(), folder_ + "/killed",
+                          std::filesystem::copy_options::overwrite_existing);
+    quarantine.EndStep();
+  };
+  const std::string beta = IdText(SimulatorId("beta"));
+  killed_after(0);
+  CapturedLog log;
+  EXPECT_EQ(Quarantine(folder_ + "/killed", "lab", 0).Summary(), "");
+  EXPECT_NE(log.Take().find("no message is suspected"), std::string::npos);
+  killed_after(1);
+  const Quarantine::Roster roster = {
+      {SimulatorId("beta"), {.id = SimulatorId("beta"), .run = 1, .name = "beta", .granted = {}}}};
+  {
+    Quarantine named(folder_ + "/killed", "lab", 0, roster);
+    EXPECT_TRUE(named.Summary().starts_with("1 suspected, the first: simulator " + beta +
+                                            " \"beta\", description of slot 7, content "))
+        << named.Summary();
+    const std::string text = log.Take();
+    EXPECT_NE(text.find("suspected, and applied in steps of their own: simulator " + beta +
+                        " \"beta\", description of slot 7"),
+              std::string::npos)
+        << text;
+  }
+  killed_after(1);
+  Quarantine unnamed(folder_ + "/killed", "lab", 0);
+  EXPECT_TRUE(unnamed.Summary().starts_with("1 suspected, the first: simulator " + beta + ", "));
+  std::vector<v1::Input> batch = inputs;
+  unnamed.Screen(&batch);
+  EXPECT_TRUE(
+      unnamed.Summary().starts_with("1 suspected, the first: simulator " + beta + " \"beta\", "))
+      << "it has come back, and says its name";
 }
 
 TEST_F(QuarantineTest, AnEndBetweenTwoStepsSuspectsNothing) {

@@ -168,6 +168,19 @@ TEST(World, ASilentSimulatorHoldsTimeUntilReleased) {
   }
 }
 
+// Goal:   one that is there after a take-over is not said to be missing.
+TEST(World, AfterATakeOverItTellsWhoIsThereFromWhoIsNot) {
+  World world(Simulated(2, v1::Clock::WAIT));
+  Join(&world, 1, 10, 7);
+  Simulator& silent = Join(&world, 2, 20, 3);
+  silent.agents().Add(0, {1, 1, {}});
+  silent.SetAlive(false, 0);
+  world.TakeOver();
+  EXPECT_EQ(world.Waited(), (std::vector<Awaited>{{"simulator 1", WaitReason::kFollows},
+                                                  {"simulator 2", WaitReason::kEnded},
+                                                  {"simulator 2", WaitReason::kMissing}}));
+}
+
 // Goal:   grants follow the least clearance, give at least Δt, at most grant_ahead_max, and are
 // never withdrawn.
 TEST(World, GrantsWhatIsClear) {

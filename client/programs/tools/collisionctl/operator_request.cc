@@ -3,13 +3,13 @@
 #include <google/protobuf/struct.pb.h>
 
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 #include <random>
 
 #include "client/library/network/dds_transport.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/json_pages.h"
+#include "idl/identity.h"
 
 namespace collision::client {
 namespace {
@@ -31,9 +31,7 @@ v1::OperatorCommand MakeCommand(v1::OperatorCommandKind kind, const std::string&
 
 std::optional<std::string> AnswerIn(const v1::ServiceStatus& status,
                                     const v1::OperatorCommand& command) {
-  char key[32];
-  std::snprintf(key, sizeof key, "operator.%016llx",
-                static_cast<unsigned long long>(command.command_id()));
+  const std::string key = "operator." + IdText(command.command_id());
   for (const v1::KeyValue& extension : status.extensions()) {
     if (extension.key() == key) return extension.value();
   }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "idl/identity.h"
+
 namespace collision::client {
 
 std::optional<std::string> ServiceNotes::Take(bool present,
@@ -12,10 +14,10 @@ std::optional<std::string> ServiceNotes::Take(bool present,
     const bool is_another = before && std::get<0>(*before) != status->service_id();
     if (is_another) {
       gone_ = false;
-      return "another service speaks: id " + std::to_string(status->service_id()) + ", term " +
-             std::to_string(status->stamp().term()) + "; before, id " +
-             std::to_string(std::get<0>(*before)) + ", term " +
-             std::to_string(std::get<1>(*before));
+      const auto name = [](const Sample& of) {
+        return "service " + IdText(std::get<0>(of)) + ", term " + std::to_string(std::get<1>(of));
+      };
+      return "another service speaks: " + name(sample) + "; before, " + name(*before);
     }
     if (gone_ && present && before != sample) {
       gone_ = false;

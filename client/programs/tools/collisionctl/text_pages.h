@@ -9,10 +9,6 @@
 
 namespace collision::client {
 
-/// For whom time waits and why, service, clock, simulators, broad phase and why, what is left out,
-/// refusals. Requires a status.
-std::string StatusPage(const WorldView& view);
-
 /// A table of all agents: identity, declaration, newest state, how long they are clear, and where
 /// the service holds one whose simulator is not heard, or does not hold it, why.
 std::string AgentsPage(const WorldView& view);
@@ -30,6 +26,13 @@ std::string MissedLine(std::uint64_t more, std::uint64_t so_far);
 
 /// How many contacts have come and how many were lost, when it ends. Without a newline.
 std::string ContactsSummary(std::uint64_t told, std::uint64_t missed);
+
+/// The time to the millisecond; "-" for a grant or clearance that was never given, which is the
+/// least instant.
+std::string SinceText(std::int64_t instant_ns);
+
+/// The pair that can touch first, in one line, without a newline.
+std::string EarliestText(const WorldView& view);
 
 /// The value in a printf() `format` for one double, of at most 63 characters.
 std::string NumberText(double value, const char* format);

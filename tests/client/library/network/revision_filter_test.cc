@@ -110,5 +110,43 @@ TEST_F(RevisionFilterTest, TheNewestPairsAreRememberedAndTheOldestForgotten) {
   EXPECT_TRUE(IsNew(event));
 }
 
+v1::CollisionEvent Of(std::uint64_t service, std::uint32_t epoch, v1::CollisionEvent event) {
+  event.mutable_stamp()->set_service_id(service);
+  event.mutable_stamp()->set_epoch(epoch);
+  return event;
+}
+
+// The same scene again has the same numbers and times.
+TEST_F(RevisionFilterTest, ANewEpochTellsAllAnew) {
+  for (const std::uint32_t epoch : {1, 2}) {
+    const std::uint64_t first = 2 * epoch - 1;
+    EXPECT_TRUE(IsNew(Of(1, epoch, Event(1, 1, v1::EVENT_POSSIBLE))));
+    EXPECT_TRUE(IsNew(Of(1, epoch, Event(1, 4, v1::EVENT_CONFIRMED, first))));
+    EXPECT_TRUE(IsNew(Of(1, epoch, Event(1, 5, v1::EVENT_ENDED, first + 1))));
+    EXPECT_FALSE(IsNew(Of(1, epoch, Event(1, 1, v1::EVENT_POSSIBLE))));
+  }
+}
+
+TEST_F(RevisionFilterTest, WhatComesLateOfAnEarlierEpochIsHistory) {
+  EXPECT_TRUE(IsNew(Of(1, 1, Event(1, 4, v1::EVENT_CONFIRMED, 1))));
+  EXPECT_TRUE(IsNew(Of(1, 2, Event(1, 1, v1::EVENT_POSSIBLE)))) << "faster than the contacts";
+  EXPECT_TRUE(IsNew(Of(1, 1, Event(1, 5, v1::EVENT_ENDED, 2))));
+  EXPECT_FALSE(IsNew(Of(1, 1, Event(1, 5, v1::EVENT_ENDED, 2))));
+  EXPECT_FALSE(IsNew(Of(1, 1, Event(2, 1, v1::EVENT_POSSIBLE))));
+  EXPECT_FALSE(IsNew(Of(1, 2, Event(1, 1, v1::EVENT_POSSIBLE)))) << "this one is known still";
+}
+
+// A standby numbers epochs like the service beside it; one that is started again begins with 1.
+TEST_F(RevisionFilterTest, AnotherServiceGoesOnInItsEpochOrBeginsAnother) {
+  EXPECT_TRUE(IsNew(Of(1, 3, Event(1, 4, v1::EVENT_CONFIRMED, 1))));
+  for (const std::uint64_t service : {2, 3}) {
+    contacts_.Restart();
+    const std::uint32_t epoch = service == 2 ? 3 : 1;
+    EXPECT_FALSE(IsNew(Of(service, epoch, Event(1, 4, v1::EVENT_CONFIRMED, 1)))) << service;
+  }
+  contacts_.Restart();
+  EXPECT_TRUE(IsNew(Of(4, 2, Event(1, 4, v1::EVENT_CONFIRMED, 1))));
+}
+
 }  // namespace
 }  // namespace collision::client

@@ -46,7 +46,8 @@ TEST(ServiceNotes, AnotherServiceIsNamedOnceInPlaceOfBack) {
   EXPECT_EQ(notes.Take(true, Status(7, 1, 5)), std::nullopt);
   EXPECT_EQ(notes.Take(false, Status(7, 1, 5)), kGone);
   EXPECT_EQ(notes.Take(true, Status(8, 2, 1)),
-            "another service speaks: id 8, term 2; before, id 7, term 1");
+            "another service speaks: service 0000000000000008, term 2; before, "
+            "service 0000000000000007, term 1");
   EXPECT_EQ(notes.Take(true, Status(8, 2, 2)), std::nullopt);
   EXPECT_EQ(notes.Take(false, Status(8, 2, 2)), kGone);
   EXPECT_EQ(notes.Take(true, Status(8, 2, 3)), kBack);

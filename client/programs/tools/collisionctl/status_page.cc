@@ -1,0 +1,245 @@
+#include "client/programs/tools/collisionctl/status_page.h"
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "client/api/event_text.h"
+#include "client/programs/tools/collisionctl/text_pages.h"
+#include "idl/identity.h"
+#include "idl/limits.h"
+
+namespace collision::client {
+namespace {
+
+constexpr std::size_t kLabelColumns = 13;
+
+std::string Line(const std::string& label, const std::string& text) {
+  return Padded(label, kLabelColumns) + text + "\n";
+}
+
+constexpr const char* kRejected = "rejected_";
+
+/// The counters of refusals, or all others; without those that are 0.
+std::string CountersText(const v1::ServiceStatus& status, bool rejections) {
+  std::string text;
+  for (const v1::Counter& counter : status.counters()) {
+    const bool is_rejection = counter.name().rfind(kRejected, 0) == 0;
+    if (counter.value() == 0 || is_rejection != rejections) continue;
+    const std::string name =
+        rejections ? counter.name().substr(std::string(kRejected).size()) : counter.name();
+    text += (text.empty() ? "" : ", ") + name + " " + std::to_string(counter.value());
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::uint64_t CounterOf(const v1::ServiceStatus& status, const std::string& name) {
+  for (const v1::Counter& counter : status.counters()) {
+    if (counter.name() == name) return counter.value();
+  }
+  return 0;
+}
+
+/// The number of queries to the broad phase, and of events that wait for their time.
+std::string QueriesText(const v1::ServiceStatus& status) {
+  return std::to_string(CounterOf(status, "queries_per_second")) + " a second, " +
+         std::to_string(CounterOf(status, "queries")) + " so far; " +
+         std::to_string(CounterOf(status, "queued")) + " events in the queue";
+}
+
+/// How many states stayed inside the promised bounds, so that no query was needed.
+std::string UpdatesText(const v1::ServiceStatus& status) {
+  const std::uint64_t kept = CounterOf(status, "updates_kept");
+  std::uint64_t all = kept;
+  for (const char* name : {"discontinuities", "widenings", "breaches"}) {
+    all += CounterOf(status, name);
+  }
+  if (all == 0) return "none so far";
+  const double share = 100 * static_cast<double>(kept) / static_cast<double>(all);
+  return std::to_string(kept) + " of " + std::to_string(all) + " cost nothing (" +
+         NumberText(share, "%.1f") + " %)";
+}
+
+/// Number and size of the trees, and how many came from the cache; empty without any.
+std::string TreesText(const v1::ServiceStatus& status) {
+  const auto count = [&](const char* name) { return CounterOf(status, name); };
+  if (count("shapes") + count("trees_building") == 0) return "";
+  std::string text =
+      std::to_string(count("shapes")) + ", " + std::to_string(count("tree_nodes")) + " balls";
+  for (const v1::KeyValue& extension : status.extensions()) {
+    if (extension.key() == "tree_builder") text += " (" + extension.value() + ")";
+  }
+  text += NumberText(static_cast<double>(count("tree_bytes")) / 1e6, ", %.1f MB; ") +
+          std::to_string(count("trees_building")) + " being built; ";
+  const std::uint64_t looked =
+      count("tree_cache_hits") + count("tree_cache_misses") + count("tree_cache_discarded");
+  if (looked == 0) return text + "no cache used";
+  return text + std::to_string(count("tree_cache_hits")) + " of " + std::to_string(looked) +
+         " from the cache";
+}
+
+/// The simulator's clock less the service's: "-0.215 … +0.402 ms".
+std::string OffsetText(const v1::SimulatorStatus& simulator) {
+  if (!simulator.has_clock_offset()) return "-";
+  const v1::TimeBracket& offset = simulator.clock_offset();
+  const bool has_lower = offset.earliest_ns() != std::numeric_limits<std::int64_t>::min();
+  const bool has_upper = offset.latest_ns() != kNever;
+  if (!has_lower && !has_upper) return "-";
+  const auto end = [](bool is_known, std::int64_t ns) {
+    return is_known ? NumberText(1e-6 * static_cast<double>(ns), "%+.3f") : std::string("?");
+  };
+  return end(has_lower, offset.earliest_ns()) + " … " + end(has_upper, offset.latest_ns()) + " ms";
+}
+
+std::string ExtensionOf(const v1::ServiceStatus& status, const std::string& key) {
+  for (const v1::KeyValue& extension : status.extensions()) {
+    if (extension.key() == key) return extension.value();
+  }
+  return "";
+}
+
+/// The parts of a list in an extension: kListSeparator is between them.
+std::vector<std::string> Parts(const std::string& list) {
+  constexpr std::string_view kListSeparator = ", ";
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from < list.size();) {
+    const std::size_t to = std::min(list.find(kListSeparator, from), list.size());
+    parts.push_back(list.substr(from, to - from));
+    from = to + kListSeparator.size();
+  }
+  return parts;
+}
+
+/// For whom the world's time waits, and why, one a line; empty if it does not.
+std::string WaitingLines(const v1::ServiceStatus& status) {
+  const std::string names = ExtensionOf(status, "waiting_for");
+  if (names.empty()) return "";
+  std::string lines = Line("TIME STANDS", "it waits for: " + names);
+  for (const std::string& why : Parts(ExtensionOf(status, "waiting_why"))) lines += Line("", why);
+  return lines;
+}
+
+/// A row for each simulator that the world waits for and that is not listed: it has not come back
+/// to a service that started again. Only a name of a simulator is without a blank.
+void AddMissing(const v1::ServiceStatus& status, std::vector<std::vector<std::string>>* rows) {
+  constexpr std::size_t kAliveColumn = 2;
+  for (const std::string& name : Parts(ExtensionOf(status, "waiting_for"))) {
+    const auto is_it = [&name](const auto& row) { return row.front() == name; };
+    if (name.find(' ') != std::string::npos || std::any_of(rows->begin(), rows->end(), is_it)) {
+      continue;
+    }
+    rows->emplace_back(rows->front().size(), "-").front() = name;
+    if (CounterOf(status, "simulators_unlisted") == 0) rows->back()[kAliveColumn] = "missing";
+  }
+}
+
+std::string SimulatorsTable(const v1::ServiceStatus& status) {
+  std::vector<std::vector<std::string>> rows = {
+      {"SIMULATOR", "RUN", "ALIVE", "CLOCK", "GRANTED", "AGENTS", "STATES", "REJECTED"}};
+  if (!status.simulated_clock()) rows.front().push_back("OFFSET");
+  for (const v1::SimulatorStatus& simulator : status.simulators()) {
+    rows.push_back({simulator.name(), std::to_string(simulator.run()),
+                    simulator.alive() ? "yes" : "no", SinceText(simulator.clock_ns()),
+                    SinceText(simulator.granted_until_ns()), std::to_string(simulator.agents()),
+                    std::to_string(simulator.states()), std::to_string(simulator.rejected())});
+    if (!status.simulated_clock()) rows.back().push_back(OffsetText(simulator));
+  }
+  AddMissing(status, &rows);
+  return Table(rows);
+}
+
+/// An extension of the status that has a line of its own.
+struct Note {
+  const char* label;
+  const char* key;
+};
+
+/// What has failed in a service.
+constexpr Note kFailures[] = {
+    {"RECORDING", "recording_failure"}, {"JOURNAL", "state_failure"}, {"QUARANTINE", "quarantine"}};
+
+/// Who takes more than its share: lists of simulators.
+constexpr Note kLoads[] = {
+    {"HELD BACK", "narrow_phase_held"}, {"NEAR LIMIT", "quotas"}, {"FLOODING", "flooding"}};
+
+constexpr Note kFacts[] = {
+    {"clock set", "clock_step"}, {"evicted", "evicted"}, {"removed", "removed_silent"}};
+
+/// A line for each that the status has.
+template <std::size_t count>
+std::string Notes(const Note (&notes)[count], const v1::ServiceStatus& status,
+                  const std::string& before = "") {
+  std::string lines;
+  for (const auto& [label, key] : notes) {
+    const std::string text = ExtensionOf(status, key);
+    if (!text.empty()) lines += Line(label, before + text);
+  }
+  return lines;
+}
+
+/// What an operator should look at first.
+std::string Troubles(const WorldView& view) {
+  const v1::ServiceStatus& status = *view.status();
+  std::string lines = WaitingLines(status) + Notes(kFailures, status);
+  for (const v1::ServiceStatus& standby : view.Standbys()) {
+    lines += Notes(kFailures, standby, "standby " + IdText(standby.service_id()) + ": ");
+  }
+  for (const auto& [label, key] : kLoads) {
+    std::string once = label;
+    for (const std::string& who : Parts(ExtensionOf(status, key))) {
+      lines += Line(std::exchange(once, ""), who);
+    }
+  }
+  return lines;
+}
+
+/// A row for the service in force and for each that stands by.
+std::string ServicesTable(const WorldView& view) {
+  const v1::ServiceStatus& serving = *view.status();
+  std::vector<std::vector<std::string>> rows = {
+      {"ROLE", "SERVICE", "PROCESS", "VERSION", "TERM", "LEASE", "AGENTS", "NOW", "CONFIGURATION"}};
+  const auto add = [&](const char* role, const v1::ServiceStatus& status, const char* note) {
+    const auto known = [](const std::string& text) { return text.empty() ? "-" : text; };
+    const std::string lease = ExtensionOf(status, "lease_s");
+    rows.push_back({role, IdText(status.service_id()),
+                    known(ExtensionOf(status, std::string(wire::kProcessExtension))),
+                    known(status.version()), std::to_string(status.stamp().term()),
+                    known(lease.empty() ? lease : lease + " s"), std::to_string(status.agents()),
+                    SinceText(status.now_ns()), note});
+  };
+  add("serves", serving, "-");
+  for (const v1::ServiceStatus& standby : view.Standbys()) {
+    const bool same = standby.configuration() == serving.configuration();
+    add("standby", standby, same ? "the same" : "OTHER");
+  }
+  return Table(rows);
+}
+
+}  // namespace
+
+std::string StatusPage(const WorldView& view) {
+  const v1::ServiceStatus& status = *view.status();
+  std::string page =
+      Troubles(view) + ServicesTable(view) + "\n" + Line("world", status.world()) +
+      Line("clock", status.simulated_clock() ? "simulated" : "wall") +
+      Line("now", SinceText(status.now_ns())) + Notes(kFacts, status) +
+      Line("agents", std::to_string(status.agents()) + ", " +
+                         std::to_string(status.pairs_tracked()) + " pairs tracked") +
+      Line("earliest", EarliestText(view)) +
+      Line("broad phase", status.broad_phase() + (status.broad_phase_why().empty() ? "" : ": ") +
+                              status.broad_phase_why()) +
+      Line("queries", QueriesText(status)) + Line("updates", UpdatesText(status));
+  const std::string trees = TreesText(status);
+  if (!trees.empty()) page += Line("trees", trees);
+  std::string label = "left out";
+  for (const std::string& what : status.left_out()) {
+    page += Line(std::exchange(label, ""), what);
+  }
+  page += Line("rejections", CountersText(status, true));
+  page += Line("counters", CountersText(status, false));
+  return page + "\n" + SimulatorsTable(status);
+}
+
+}  // namespace collision::client

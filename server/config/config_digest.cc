@@ -1,0 +1,51 @@
+#include "server/config/config_digest.h"
+
+#include <algorithm>
+#include <string>
+
+#include "idl/identity.h"
+#include "server/config/config_options.h"
+
+namespace collision::server {
+namespace {
+
+constexpr std::string_view kFieldsWithoutResults[] = {"world",
+                                                      "domain",
+                                                      "clock.wait_for_synchronisation_s",
+                                                      "log_level",
+                                                      "log_file",
+                                                      "status_period_s",
+                                                      "broad_phase",
+                                                      "tree_cache_dir",
+                                                      "tree_cache_mb",
+                                                      "state_dir",
+                                                      "claim_wait_s",
+                                                      "on_state_failure",
+                                                      "on_occupied",
+                                                      "lease_s",
+                                                      "on_recording_failure",
+                                                      "earliest_period_s"};
+
+}  // namespace
+
+std::span<const std::string_view> FieldsWithoutResults() { return kFieldsWithoutResults; }
+
+std::uint64_t ConfigurationDigest(const v1::Config& complete) {
+  v1::Config defaults;
+  defaults.mutable_clock()->set_kind(complete.clock().kind());
+  std::string text;
+  for (const ConfigOption& option : ConfigOptions()) {
+    if (std::ranges::count(kFieldsWithoutResults, option.path) > 0) continue;
+    SetValue(&defaults, option, DefaultOf(option, complete));
+    const std::string value = ValueText(complete, option);
+    const bool is_default = value == ValueText(defaults, option) && option.path != "clock.kind";
+    if (!is_default) text.append(option.path).append(": ").append(value).append("\n");
+  }
+  for (const v1::SimulatorLimits& block : complete.limits()) {
+    text.append("limits: ").append(block.ShortDebugString()).append("\n");
+  }
+  const std::uint64_t digest = Fnv1a(text);
+  return digest != 0 ? digest : 1;
+}
+
+}  // namespace collision::server

@@ -1,0 +1,63 @@
+// Names the services of the world: the others in the log, this one in the status.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "idl/config.pb.h"
+#include "idl/messages.pb.h"
+#include "server/claim/standby_readiness.h"
+#include "server/process/names_log.h"
+
+namespace collision::server {
+
+/// Keeps what was heard of other services: a line for each that begins to serve or to stand by, or
+/// is gone; one for each that is configured otherwise, so that results change with a take-over; and
+/// the reason of a take-over. It only tells. Times are nanoseconds of the monotonic clock. One
+/// thread.
+class ServiceReport {
+ public:
+  /// `process`: ProcessText() of this service; empty: not known.
+  ServiceReport(const v1::Config& complete, std::uint64_t service_id, std::string process);
+
+  /// A status of a service, or its end.
+  void Hear(const v1::ServiceHeard& heard, std::int64_t now_ns);
+
+  /// This one stands by beside the service whose status that is (StandbyReadiness::Hear()). True: it
+  /// is ready to take over from now on, which is logged.
+  bool HearOfWork(const v1::ServiceHeard& heard, std::size_t agents, Instant newest);
+
+  /// Writes what is new, and ServiceClaim::Conflicts().
+  void Write(const std::vector<std::string>& conflicts, std::int64_t now_ns);
+
+  /// This service takes over: writes from which one, for how long that one has been silent, and
+  /// whether this one was not ready.
+  void LogTakeOver(std::int64_t now_ns) const;
+
+  /// ConfigurationDigest() of this service.
+  std::uint64_t configuration() const { return configuration_; }
+
+  /// For the status: "process", "lease_s", and of one that `stands_by` "standby".
+  void AddExtensions(bool stands_by, std::vector<v1::KeyValue>* extensions) const;
+
+ private:
+  const std::uint64_t configuration_;
+  const std::uint64_t service_id_;
+  const std::string process_;
+  const double lease_s_;
+  StandbyReadiness readiness_;
+  std::map<std::uint64_t, v1::ServiceHeard> others_;  ///< At most kOthersMax; further are not told.
+  v1::ServiceHeard served_;                           ///< The newest status of one that served.
+  std::int64_t served_ns_ = 0;                        ///< When it was heard.
+  NamesLog standbys_{"{} has become a standby in this world", spdlog::level::info};
+  NamesLog serving_{"{} serves this world", spdlog::level::info};
+  NamesLog gone_{"{} is gone: it has ended, or was not heard for its lease", spdlog::level::info};
+  NamesLog configured_otherwise_{
+      "{} is configured otherwise: results change when one takes over from the other; compare "
+      "collisiond --print-config of both"};
+};
+
+}  // namespace collision::server
