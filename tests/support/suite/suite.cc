@@ -66,7 +66,8 @@ void Print(const Row& row) {
 }
 
 std::size_t FieldsOf(const Row& row) {
-  return (row.what.fault.empty() ? 8 : 9) + row.outcome.numbers().size();
+  return (row.what.fault.empty() ? 8 : 9) + row.outcome.numbers().size() +
+         row.outcome.lists().size();
 }
 
 std::string Measurement(const std::string& part, const Row& row) {
@@ -82,6 +83,9 @@ std::string Measurement(const std::string& part, const Row& row) {
   if (!row.what.fault.empty()) fields.push_back(bench::Text("fault", row.what.fault));
   for (const auto& [name, value] : row.outcome.numbers()) {
     fields.push_back(bench::Number(name, value));
+  }
+  for (const auto& [name, values] : row.outcome.lists()) {
+    fields.push_back(bench::List(name, values));
   }
   return bench::Object(fields);
 }
@@ -123,6 +127,10 @@ bool IsReadBack(const std::string& path, const std::vector<Row>& rows) {
     for (const auto& [name, value] : row.outcome.numbers()) {
       same = same && fields.contains(name) &&
              std::abs(fields.at(name).number_value() - value) <= 1e-8 * std::abs(value);
+    }
+    for (const auto& [name, values] : row.outcome.lists()) {
+      same = same && fields.contains(name) &&
+             fields.at(name).list_value().values_size() == static_cast<int>(values.size());
     }
   }
   if (!same) std::fprintf(stderr, "%s is not what was measured\n", path.c_str());
