@@ -182,7 +182,8 @@ v1::Results TakenOver() {
                     {"max_ms", 150},
                     {"contacts_kept", 1}});
   auto& fields = *row->mutable_fields();
-  for (const auto& [field, text] : {std::pair{"group", "take-over"}, {"name", "killed"}}) {
+  for (const auto& [field, text] :
+       {std::pair{"group", "take-over"}, {"name", "killed"}, {"kept", "yes"}}) {
     fields[field].set_string_value(text);
   }
   for (int ms = 101; ms <= 150; ++ms) {
@@ -226,6 +227,8 @@ TEST(ReportLoadAndFaults, WhatIsNotReachedSaysSo) {
   fields["contacts_kept"].set_number_value(0);
   EXPECT_EQ(kept(results, 0), "yes");
   EXPECT_EQ(kept(results, 1), "NO");
+  fields["kept"].set_string_value("NO");
+  EXPECT_EQ(kept(results, 0), "NO");
 
   v1::Experiment* service = results.add_experiments();
   service->set_name("service");
