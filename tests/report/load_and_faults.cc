@@ -140,10 +140,11 @@ Table CasesTable(const v1::Results& results, const std::string& experiment,
   return table;
 }
 
-/// Alone, then beside.
+/// Alone, beside, and the ratio.
 std::string AloneBeside(const Row& row, const std::string& what) {
   if (!NumberOf(row, what + "_alone_ms")) return "";
-  return Milliseconds(row, what + "_alone_ms") + ", " + Milliseconds(row, what + "_beside_ms");
+  return Milliseconds(row, what + "_alone_ms") + ", " + Milliseconds(row, what + "_beside_ms") +
+         " (× " + TextOf(row, what + "_times") + ")";
 }
 
 Table BadClientsTable(const v1::Results& results) {
