@@ -34,9 +34,11 @@ struct Row {
   double seconds = 0;
 };
 
+/// A whole name chooses that case alone, although others begin with it.
 std::vector<Case> Chosen(const Suite& suite, const std::string& only) {
   std::vector<Case> chosen;
   for (const Case& one : suite.cases) {
+    if (one.full_name() == only) return {one};
     if (one.full_name().find(only) != std::string::npos) chosen.push_back(one);
   }
   return chosen;
@@ -192,7 +194,8 @@ int RunSuite(const Suite& suite, int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--list", options.list, "only name the cases");
   app.add_option("--json", options.json, "write every case, and the figures, to this file");
-  app.add_option("--only", options.only, "only cases whose GROUP/NAME contains this");
+  app.add_option("--only", options.only,
+                 "only cases whose GROUP/NAME contains this; a whole name: that case alone");
   app.add_option("--registered", options.registered, "compare these names with the cases");
   try {
     app.parse(argc, argv);
