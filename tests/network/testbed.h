@@ -53,8 +53,9 @@ struct Flown {
   std::vector<std::string> failures;  ///< Programs that did not end as they should.
 };
 
-/// Longer than any flight takes: one that waits so long has failed.
-inline constexpr std::chrono::seconds kPatience{100};
+/// Longer than any flight takes, which are two minutes and a half where each way takes 200 ms: one
+/// that waits so long has failed.
+inline constexpr std::chrono::seconds kPatience{300};
 
 /// A swarm of drones that bounce off each other, half of them in each simulator. The programs are
 /// real processes, each on its own host.

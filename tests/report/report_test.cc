@@ -168,6 +168,96 @@ TEST(ReportPage, MarksWhatIsBroken) {
   EXPECT_TRUE(is_marked("mutants", "killed_by", "ERROR"));
 }
 
+/// Of 50 take-overs that take 101, 102, ... ms, all but the last two are in time.
+v1::Results TakenOver() {
+  v1::Results results;
+  v1::Experiment* network = results.add_experiments();
+  network->set_name("network");
+  Row* row = network->add_measurements();
+  *row = RowOf("", {{"take_overs", 50},
+                    {"promised_ms", 148},
+                    {"within_lease_and_50_ms", 48},
+                    {"p50_ms", 125},
+                    {"p90_ms", 145},
+                    {"max_ms", 150},
+                    {"contacts_kept", 1}});
+  auto& fields = *row->mutable_fields();
+  for (const auto& [field, text] :
+       {std::pair{"group", "take-over"}, {"name", "killed"}, {"kept", "yes"}}) {
+    fields[field].set_string_value(text);
+  }
+  for (int ms = 101; ms <= 150; ++ms) {
+    fields["take_over_ms"].mutable_list_value()->add_values()->set_number_value(ms);
+  }
+  return results;
+}
+
+const Section& LoadAndFaultsOf(const std::vector<Section>& sections) {
+  for (const Section& section : sections) {
+    if (section.id == "load-and-faults") return section;
+  }
+  throw std::logic_error("no such section");
+}
+
+// Goal:   how long take-overs take is seen as a distribution, beside what is promised.
+TEST(ReportLoadAndFaults, TakeOversRiseToAllOfThemBesideThePromise) {
+  const auto sections = SectionsOf(TakenOver());
+  const Section& section = LoadAndFaultsOf(sections);
+  ASSERT_EQ(section.charts.size(), 1u);
+  const Chart& chart = section.charts[0];
+  ASSERT_EQ(chart.series.size(), 2u);
+  EXPECT_EQ(chart.series[0].name, "killed");
+  ASSERT_EQ(chart.series[0].points.size(), 50u);
+  EXPECT_EQ(chart.series[0].points[0].y, 2.0);
+  EXPECT_EQ(chart.series[0].points[47].x, chart.series[1].points[0].x);
+  EXPECT_EQ(chart.series[0].points[49].y, 100.0);
+}
+
+// Goal:   a figure that is not reached is shown as not reached, with what was measured.
+TEST(ReportLoadAndFaults, WhatIsNotReachedSaysSo) {
+  const auto kept = [](const v1::Results& results, std::size_t line) {
+    const auto sections = SectionsOf(results);
+    return LoadAndFaultsOf(sections).tables.at(0).rows.at(line).back();
+  };
+  v1::Results results = TakenOver();
+  EXPECT_EQ(kept(results, 0), "NO");
+  EXPECT_EQ(kept(results, 1), "yes");
+  auto& fields = *results.mutable_experiments(0)->mutable_measurements(0)->mutable_fields();
+  fields["within_lease_and_50_ms"].set_number_value(50);
+  fields["contacts_kept"].set_number_value(0);
+  EXPECT_EQ(kept(results, 0), "yes");
+  EXPECT_EQ(kept(results, 1), "NO");
+  fields["kept"].set_string_value("NO");
+  EXPECT_EQ(kept(results, 0), "NO");
+
+  v1::Experiment* service = results.add_experiments();
+  service->set_name("service");
+  EXPECT_EQ(kept(results, 2), "NO");  // not measured
+  v1::Figure* figure = service->add_figures();
+  figure->set_name("crowd_event_p50_ratio");
+  figure->set_value(2.01);
+  EXPECT_EQ(kept(results, 2), "NO");
+  figure->set_value(1.99);
+  EXPECT_EQ(kept(results, 2), "yes");
+}
+
+// Goal:   a case in few words, and one that broke with all of them.
+TEST(ReportLoadAndFaults, ABrokenCaseTellsAll) {
+  v1::Results results;
+  v1::Experiment* faults = results.add_experiments();
+  faults->set_name("faults");
+  Row* row = faults->add_measurements();
+  *row = RowOf("", {{"runs", 60}, {"late", 1}});
+  (*row->mutable_fields())["measured"].set_string_value("BROKEN (1 of 9 checks): seed 7");
+  const auto measured = [&](const char* kept) {
+    (*row->mutable_fields())["kept"].set_string_value(kept);
+    const auto sections = SectionsOf(results);
+    return LoadAndFaultsOf(sections).tables.at(0).rows.at(0).at(2);
+  };
+  EXPECT_EQ(measured("yes"), "60 runs, 1 late");
+  EXPECT_EQ(measured("NO"), "BROKEN (1 of 9 checks): seed 7");
+}
+
 TEST(ReportPage, ReplacesThePlotsBetweenTheMarks) {
   const std::string page = "a\n<!-- report: begin -->\nold\n<!-- report: end -->\nb\n";
   const std::string changed = WithPlots(page, {}, "plots");

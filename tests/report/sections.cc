@@ -7,36 +7,11 @@
 #include <cstdio>
 
 #include "tests/report/chart_rows.h"
+#include "tests/report/load_and_faults.h"
 #include "tests/report/text.h"
 
 namespace collision::report {
 namespace {
-
-/// Adds the chart if anything was measured for it.
-void AddChart(Chart chart, Section* section) {
-  if (!chart.empty()) section->charts.push_back(std::move(chart));
-}
-
-void AddTable(Table table, Section* section) {
-  if (!table.rows.empty()) section->tables.push_back(std::move(table));
-}
-
-/// Every measurement and figure of an experiment, folded; or that it is missing.
-void AddWhole(const v1::Results& results, const std::string& name, Section* section) {
-  const v1::Experiment* experiment = FindExperiment(results, name);
-  if (experiment == nullptr) {
-    section->paragraphs.push_back(name + ": not in this report.");
-    return;
-  }
-  Table figures{experiment->title() + ": figures", {"figure", "value"}, {}, true};
-  for (const v1::Figure& figure : experiment->figures()) {
-    figures.rows.push_back(
-        {figure.name(), figure.has_value() ? Short(figure.value()) : "not measured"});
-  }
-  AddTable(figures, section);
-  AddTable(WholeTable(experiment->title() + ": every measurement", Select(results, name, {})),
-           section);
-}
 
 const std::vector<std::string> kOurs = {"ours"};
 
@@ -386,34 +361,6 @@ Section Stress(const v1::Results& results) {
   return section;
 }
 
-/// Cases that say what is done to the service, what is promised and what was measured.
-Section CasesOf(const v1::Results& results, const std::string& name, const std::string& title,
-                const std::string& about) {
-  Section section{name, title, {about}, {}, {}};
-  AddTable(TableOf("", Select(results, name, {}),
-                   {{"group", "group"},
-                    {"name", "case"},
-                    {"fault", "fault"},
-                    {"promised", "promised"},
-                    {"measured", "measured"},
-                    {"kept", "kept"}}),
-           &section);
-  AddWhole(results, name, &section);
-  return section;
-}
-
-Section Faults(const v1::Results& results) {
-  return CasesOf(results, "faults", "Faults",
-                 "What the network and the programs do wrong, what is promised then, and what was "
-                 "measured over many seeds, with the real client library (./run faults).");
-}
-
-Section Soak(const v1::Results& results) {
-  return CasesOf(results, "soak", "Soak",
-                 "A week of lock-step over DDS, in which agents, shapes and programs come and go, "
-                 "and each bad client beside an honest one (./run soak).");
-}
-
 Section Trust(const v1::Results& results) {
   Section section{"trust", "Same bits, fuzzing, mutants", {}, {}, {}};
   section.paragraphs = {
@@ -431,9 +378,9 @@ Section Trust(const v1::Results& results) {
 }  // namespace
 
 std::vector<Section> SectionsOf(const v1::Results& results) {
-  return {Precision(results),  Budget(results),  Hubbard(results), Stepping(results),
-          BroadPhase(results), Service(results), LeftOut(results), Stress(results),
-          Faults(results),     Soak(results),    Trust(results)};
+  return {Precision(results),     Budget(results),  Hubbard(results), Stepping(results),
+          BroadPhase(results),    Service(results), LeftOut(results), Stress(results),
+          LoadAndFaults(results), Trust(results)};
 }
 
 std::vector<MeasuredPlot> MeasuredPlots() {

@@ -5,18 +5,9 @@
 #include <vector>
 
 #include "idl/report.pb.h"
-#include "tests/report/chart.h"
-#include "tests/report/table.h"
+#include "tests/report/section.h"
 
 namespace collision::report {
-
-struct Section {
-  std::string id;  ///< For links within the page.
-  std::string title;
-  std::vector<std::string> paragraphs;
-  std::vector<Chart> charts;
-  std::vector<Table> tables;
-};
 
 /// A section whose experiments are all missing says so. Every measurement of every experiment is in
 /// a folded table at least.

@@ -56,16 +56,8 @@ Honest::Honest(const std::string& world, std::uint32_t domain, bool lock_step,
   world_.OnEvent([this](const client::Event& event) { Hear(event); });
 }
 
-bool Honest::Fly(double seconds, int laps, Served* served) {
-  served_ = served;
-  const double end_s = Seconds() + seconds;
-  while (served->laps < laps || Seconds() < end_s) {
-    if (!Lap(served)) return outcome_.Expect(false, "the honest one was not answered");
-  }
-  return true;
-}
-
 bool Honest::Lap(Served* served) {
+  served_ = served;
   const bool first = !resting_.has_value();
   if (!first) before_ = lap_;
   const std::int64_t begin_ns = lock_step_ ? lap_.begin_ns + kSteps * kStepNs : WallNs();
@@ -78,7 +70,7 @@ bool Honest::Lap(Served* served) {
   }
   passing_.reset();
   for (int step = 0; step < kSteps; ++step) {
-    if (!Step(step, served)) return false;
+    if (!Step(step, served)) return outcome_.Expect(false, "the honest one was not answered");
   }
   if (before_) Judge(*before_);
   ++served->laps;

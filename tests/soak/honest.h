@@ -31,10 +31,10 @@ class Honest {
   /// Throws std::runtime_error where it cannot connect.
   Honest(const std::string& world, std::uint32_t domain, bool lock_step, suite::Outcome* outcome);
 
-  /// Flies for so long, and so many laps at least. Every lap should be told the same contact, in
-  /// brackets that hold; in lock-step they are the same in each. A lap is judged at the end of the
-  /// next one. False: it was not answered.
-  bool Fly(double seconds, int laps, Served* served);
+  /// Flies one lap more. Every lap should be told the same contact, in brackets that hold; in
+  /// lock-step they are the same in each. A lap is judged at the end of the next one. False: it was
+  /// not answered.
+  bool Lap(Served* served);
 
   /// Laps whose contact was not heard of as ended.
   int unended() const { return unended_; }
@@ -47,7 +47,6 @@ class Honest {
     std::optional<client::Event> last;
   };
 
-  bool Lap(Served* served);
   void Enter();
   bool Step(int step, Served* served);
   void Hear(const client::Event& event);

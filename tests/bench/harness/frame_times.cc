@@ -9,15 +9,6 @@ namespace {
 
 constexpr std::size_t kSlowest = 5, kParts = 64;
 
-Field List(const std::string& name, const std::vector<double>& values) {
-  std::string json = "[";
-  for (const double value : values) {
-    if (json.size() > 1) json += ", ";
-    json += Format("%.9g", value);
-  }
-  return {name, json + "]"};
-}
-
 std::vector<double> Series(const std::vector<double>& frames) {
   const std::size_t parts = std::min(kParts, frames.size());
   std::vector<double> series(parts);

@@ -32,6 +32,15 @@ Field Number(const std::string& name, std::optional<double> value) {
 
 Field Text(const std::string& name, const std::string& value) { return {name, Quoted(value)}; }
 
+Field List(const std::string& name, const std::vector<double>& values) {
+  std::string json = "[";
+  for (const double value : values) {
+    if (json.size() > 1) json += ", ";
+    json += Format("%.9g", value);
+  }
+  return {name, json + "]"};
+}
+
 std::string Object(const std::vector<Field>& fields) {
   std::string text;
   std::set<std::string> names;

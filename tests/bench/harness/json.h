@@ -17,6 +17,7 @@ struct Field {
 /// Null: not measured, or no number.
 Field Number(const std::string& name, std::optional<double> value);
 Field Text(const std::string& name, const std::string& value);
+Field List(const std::string& name, const std::vector<double>& values);
 
 /// {"name": value, ...}
 /// Throws std::logic_error where two have one name: no reader takes that.

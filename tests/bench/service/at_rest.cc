@@ -17,7 +17,7 @@ constexpr double kSpacing = 100, kJitter = 3;  // [m]
 constexpr std::uint32_t kRow = 100;
 
 struct Times {
-  std::vector<double> steps, answers;  // [s]
+  std::vector<double> steps, answers;  // [s] of the processor
 };
 
 /// Agents at rest that tell their states 60 times a second.
@@ -34,7 +34,7 @@ Times Rest(std::uint32_t agents, double jitter, int steps) {
   Times times;
   for (int step = 1; step <= steps; ++step) {
     const Instant now = Instant::FromNanoseconds(static_cast<std::int64_t>(1e9 * kStep * step));
-    const Stopwatch watch;
+    const CpuStopwatch watch;
     for (std::uint32_t slot = 0; slot < agents; ++slot) {
       states[slot].stamp = now;
       detector.Update(id(slot), states[slot], now);
@@ -42,7 +42,7 @@ Times Rest(std::uint32_t agents, double jitter, int steps) {
     detector.SetHeardUntil({1, 1}, now);
     detector.Advance(now);
     if (step % kStepsPerAnswer == 0) {
-      const Stopwatch answer;
+      const CpuStopwatch answer;
       detector.Earliest(kQueriesMax);
       times.answers.push_back(answer.seconds());
     }

@@ -14,8 +14,9 @@ using Eigen::Vector3d;
 using namespace std::chrono_literals;
 
 constexpr std::int64_t kPeriodNs = 1'000'000'000 / 60;
-constexpr double kAnnounceWithin = 2;  // [s] the service's default
-constexpr double kWarmUp = 1;          // [s], in which every agent sends its first state
+constexpr double kAnnounceWithin = 2;   // [s] the service's default
+constexpr double kGrantAheadMax = 0.1;  // [s] as in the demo scenes: an answer ends a round
+constexpr double kWarmUp = 1;           // [s], in which every agent sends its first state
 
 struct Swarm {
   std::uint32_t agents;
@@ -81,6 +82,7 @@ struct Counts {
 Counts Fly(const Swarm& swarm, double seconds) {
   v1::Config config;
   config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
+  config.mutable_clock()->set_grant_ahead_max_s(kGrantAheadMax);
   config.set_announce_within_s(kAnnounceWithin);
   client::InProcessService service(config, 0);
   client::WorldOptions options;

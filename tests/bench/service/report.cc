@@ -4,7 +4,8 @@ namespace collision::bench {
 namespace {
 
 std::vector<std::string> FigureNames() {
-  std::vector<std::string> names = {"messages_saved_ratio"};
+  std::vector<std::string> names = {"messages_saved_ratio", "crowd_event_p50_ratio",
+                                    "crowd_event_p99_ratio"};
   for (const char* agents : {"_100", "_1000", "_10000"}) {
     for (const char* name :
          {"service_event_p50_s", "service_event_p99_s", "network_event_p50_s",

@@ -89,6 +89,8 @@ void Describe(std::vector<double> milliseconds, double promised_ms, Outcome* out
   outcome->Set("p50_ms", quantile(0.5));
   outcome->Set("p90_ms", quantile(0.9));
   outcome->Set("max_ms", milliseconds.back());
+  outcome->SetList("take_over_ms", milliseconds);
+  outcome->Set("promised_ms", promised_ms);
   outcome->Set("within_lease_and_50_ms",
                static_cast<double>(std::count_if(milliseconds.begin(), milliseconds.end(),
                                                  [&](double ms) { return ms <= promised_ms; })));

@@ -41,6 +41,12 @@ double Outcome::Get(const std::string& name) const {
   return 0;
 }
 
+void Outcome::SetList(const std::string& name, const std::vector<double>& values) {
+  const bool finite =
+      std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  if (Expect(finite, name + " is not finite")) lists_.emplace_back(name, values);
+}
+
 std::string Outcome::Measured() const {
   std::string text = said_;
   if (text.empty()) {

@@ -29,6 +29,8 @@ class Outcome {
   void Greatest(const std::string& name, double value);
   void Add(const std::string& name, double value);
   double Get(const std::string& name) const;  ///< 0 where there is none.
+  /// Single values, all finite, for the report's JSON alone.
+  void SetList(const std::string& name, const std::vector<double>& values);
 
   /// What was measured, as a sentence.
   void Say(const std::string& sentence) { said_ = sentence; }
@@ -38,6 +40,7 @@ class Outcome {
   /// The sentence; where a check failed that one first.
   std::string Measured() const;
   const std::vector<std::pair<std::string, double>>& numbers() const { return numbers_; }
+  const std::vector<std::pair<std::string, std::vector<double>>>& lists() const { return lists_; }
 
  private:
   double& Slot(const std::string& name, double initial);
@@ -45,6 +48,7 @@ class Outcome {
   std::uint64_t checks_ = 0, failures_ = 0;
   std::string first_failure_, said_;
   std::vector<std::pair<std::string, double>> numbers_;
+  std::vector<std::pair<std::string, std::vector<double>>> lists_;
 };
 
 struct Case {

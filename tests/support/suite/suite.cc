@@ -34,9 +34,11 @@ struct Row {
   double seconds = 0;
 };
 
+/// A whole name chooses that case alone, although others begin with it.
 std::vector<Case> Chosen(const Suite& suite, const std::string& only) {
   std::vector<Case> chosen;
   for (const Case& one : suite.cases) {
+    if (one.full_name() == only) return {one};
     if (one.full_name().find(only) != std::string::npos) chosen.push_back(one);
   }
   return chosen;
@@ -66,7 +68,8 @@ void Print(const Row& row) {
 }
 
 std::size_t FieldsOf(const Row& row) {
-  return (row.what.fault.empty() ? 8 : 9) + row.outcome.numbers().size();
+  return (row.what.fault.empty() ? 8 : 9) + row.outcome.numbers().size() +
+         row.outcome.lists().size();
 }
 
 std::string Measurement(const std::string& part, const Row& row) {
@@ -82,6 +85,9 @@ std::string Measurement(const std::string& part, const Row& row) {
   if (!row.what.fault.empty()) fields.push_back(bench::Text("fault", row.what.fault));
   for (const auto& [name, value] : row.outcome.numbers()) {
     fields.push_back(bench::Number(name, value));
+  }
+  for (const auto& [name, values] : row.outcome.lists()) {
+    fields.push_back(bench::List(name, values));
   }
   return bench::Object(fields);
 }
@@ -123,6 +129,10 @@ bool IsReadBack(const std::string& path, const std::vector<Row>& rows) {
     for (const auto& [name, value] : row.outcome.numbers()) {
       same = same && fields.contains(name) &&
              std::abs(fields.at(name).number_value() - value) <= 1e-8 * std::abs(value);
+    }
+    for (const auto& [name, values] : row.outcome.lists()) {
+      same = same && fields.contains(name) &&
+             fields.at(name).list_value().values_size() == static_cast<int>(values.size());
     }
   }
   if (!same) std::fprintf(stderr, "%s is not what was measured\n", path.c_str());
@@ -184,7 +194,8 @@ int RunSuite(const Suite& suite, int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--list", options.list, "only name the cases");
   app.add_option("--json", options.json, "write every case, and the figures, to this file");
-  app.add_option("--only", options.only, "only cases whose GROUP/NAME contains this");
+  app.add_option("--only", options.only,
+                 "only cases whose GROUP/NAME contains this; a whole name: that case alone");
   app.add_option("--registered", options.registered, "compare these names with the cases");
   try {
     app.parse(argc, argv);

@@ -1,0 +1,30 @@
+// A part of the page, and the pieces that it is made of.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "idl/report.pb.h"
+#include "tests/report/chart.h"
+#include "tests/report/table.h"
+
+namespace collision::report {
+
+struct Section {
+  std::string id;  ///< For links within the page.
+  std::string title;
+  std::vector<std::string> paragraphs;
+  std::vector<Chart> charts;
+  std::vector<Table> tables;
+};
+
+/// Adds the chart if anything was measured for it.
+void AddChart(Chart chart, Section* section);
+
+/// Adds the table if it has rows.
+void AddTable(Table table, Section* section);
+
+/// Every measurement and figure of an experiment, folded; or that it is missing.
+void AddWhole(const v1::Results& results, const std::string& name, Section* section);
+
+}  // namespace collision::report
