@@ -101,7 +101,8 @@ void TrackedPairs::RetractFree(AgentIndex agent, Instant from) {
     PairRecord& pair = table_[slot];
     pair.tracker.RetractFree(from, Past::kKnown);
     extremes_.Set(slot, pair.lower, pair.higher, ExtremesOf(pair));
-    retracted_.push_back({slot, from});
+    if (pair.retracted_from.is_never()) retracted_.push_back(slot);
+    pair.retracted_from = std::min(pair.retracted_from, from);
   }
 }
 
@@ -171,9 +172,12 @@ void TrackedPairs::QueueDuePairs() {
 // What was certified of the pairs that wait for a later step still holds, unless an agent was
 // renewed. Returns those that must be announced meanwhile, by slot.
 std::vector<PairSlot> TrackedPairs::RetractPostponed() {
-  for (const auto& [slot, from] : retracted_) {
+  for (const PairSlot slot : retracted_) {
+    if (!table_.Contains(slot)) continue;
+    PairRecord& pair = table_[slot];
+    const Instant from = std::exchange(pair.retracted_from, Instant::Never());
     if (!owners_.IsWaiting(slot)) continue;
-    table_[slot].clear_until = std::min(table_[slot].clear_until, from);
+    pair.clear_until = std::min(pair.clear_until, from);
     MarkChanged(slot);
     queued_.push_back(slot);
   }

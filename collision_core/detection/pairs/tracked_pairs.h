@@ -87,6 +87,8 @@ class TrackedPairs {
 
   const std::vector<CollisionEvent>& events() const { return announcer_.events(); }
   std::size_t queued() const { return due_.size(); }
+  /// Pairs whose freedom was taken back since the last step: each once, however often that was.
+  std::size_t retracted() const { return retracted_.size(); }
   /// Pairs that wait for a later step, since the work of this one was used up.
   std::size_t waiting() const { return owners_.waiting(); }
   std::vector<OwnerWork> owner_work() const { return owners_.work(); }
@@ -95,12 +97,6 @@ class TrackedPairs {
   void Validate() const;
 
  private:
-  /// The freedom of a pair was taken back from an instant on.
-  struct Retraction {
-    PairSlot slot;
-    Instant from;
-  };
-
   void QueueDuePairs();
   std::vector<PairSlot> RetractPostponed();
   void FindFirstClearance(PairSlot slot);
@@ -132,7 +128,7 @@ class TrackedPairs {
   bool held_ = false;    // a pair could get less than it may need, in this step
   bool scarce_ = false;  // the last step's budget was used up, or nearly
   std::map<OwnerId, std::uint64_t> last_units_;  // of last evaluations in this step
-  std::vector<Retraction> retracted_;            // since the last step
+  std::vector<PairSlot> retracted_;              // since the last step, each once
   std::vector<PairSlot> queued_;                 // that began to wait or became due in this step
   Announcer announcer_;
   EventQueue<PairSlot> due_;  // by the time from which a pair is evaluated at every step
