@@ -112,17 +112,15 @@ void TrackedPairs::MarkBroken(AgentIndex agent, Instant last_honest) {
   for (const PairSlot slot : table_.Of(agent)) table_[slot].published.broken = true;
 }
 
-void TrackedPairs::StartStep() {
-  announcer_.Start(context_.clock.now);
-  last_units_.clear();
-}
+void TrackedPairs::StartStep() { announcer_.Start(context_.clock.now); }
 
 void TrackedPairs::EvaluateDuePairs() {
   QueueDuePairs();
   const bool limited = budget_.is_limited();
   const auto cost = [&](PairSlot slot) { return limited ? TurnCostOf(slot) : 0; };
   const std::vector<PairTurn> turns =
-      owners_.Take(limited ? budget_.per_step() : 0, cost, context_.clock.now);
+      owners_.Take(limited ? budget_.per_step() : 0, cost, context_.clock.now,
+                   !context_.agents.changed().empty());
   const std::vector<PairSlot> unannounced = RetractPostponed();
   if (limited) {
     std::vector<PairClaim> claims;
@@ -182,6 +180,8 @@ std::vector<PairSlot> TrackedPairs::RetractPostponed() {
     queued_.push_back(slot);
   }
   retracted_.clear();
+  std::sort(queued_.begin(), queued_.end());
+  queued_.erase(std::unique(queued_.begin(), queued_.end()), queued_.end());
   std::vector<PairSlot> unannounced;
   for (const PairSlot slot : queued_) {
     if (!owners_.IsWaiting(slot) || table_[slot].published.announced) continue;
@@ -191,8 +191,6 @@ std::vector<PairSlot> TrackedPairs::RetractPostponed() {
     due_.Set(slot, announce);
     if (announce <= context_.clock.now) unannounced.push_back(slot);
   }
-  std::sort(unannounced.begin(), unannounced.end());
-  unannounced.erase(std::unique(unannounced.begin(), unannounced.end()), unannounced.end());
   return unannounced;
 }
 
@@ -340,18 +338,15 @@ void TrackedPairs::EvaluateLastTime(AgentIndex agent, Departure departure) {
   for (const PairSlot slot : slots) {
     const OwnerId payer = owners_.PayerOf(slot);
     const std::uint64_t before = context_.counters->work_units;
-    Evaluate(slot, AllowedAtLast(payer), Finality::kLast);
-    last_units_[payer] += context_.counters->work_units - before;
+    std::uint64_t allowed = options_.work_units_per_evaluation;
+    if (budget_.is_limited()) {
+      allowed = std::min(allowed, owners_.CreditOf(payer, budget_.per_step(), context_.clock.now));
+    }
+    Evaluate(slot, allowed, Finality::kLast);
+    owners_.Charge(payer, context_.counters->work_units - before);
     if (table_.Contains(slot)) Drop(slot, departure);
     context_.clock.MadeProgress();
   }
-}
-
-std::uint64_t TrackedPairs::AllowedAtLast(const OwnerId& payer) {
-  if (!budget_.is_limited()) return options_.work_units_per_evaluation;
-  const std::uint64_t spent = last_units_[payer];
-  const std::uint64_t left = budget_.per_step() - std::min(spent, budget_.per_step());
-  return std::min(options_.work_units_per_evaluation, left);
 }
 
 // The two are no longer watched: closes their event and releases the slot.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <vector>
 
 #include "collision_core/detection/agents/detector_context.h"
@@ -69,8 +68,8 @@ class TrackedPairs {
   /// Evaluates the pairs of all agents that have changed, and those that are due, within the step's
   /// budget.
   void EvaluateDuePairs();
-  /// The agent leaves or expires: evaluates its pairs a last time and tracks them no longer. Each
-  /// owner may spend one step's budget on that; the pairs beyond it end undecided.
+  /// The agent leaves or expires: evaluates its pairs a last time and tracks them no longer. Their
+  /// owners pay out of their credit; the pairs beyond it end undecided.
   void EvaluateLastTime(AgentIndex agent, Departure departure);
 
   /// Pairs released since the last call, in the order of their release. The caller lowers the keys
@@ -104,7 +103,6 @@ class TrackedPairs {
   std::uint64_t TurnCostOf(PairSlot slot) const;
   WorkClaim ClaimOf(const PairTurn& turn) const;
   WorkClaim ClaimOf(PairSlot slot) const;
-  std::uint64_t AllowedAtLast(const OwnerId& payer);
   void Evaluate(PairSlot slot, std::uint64_t allowed, Finality finality);
   PairInterest Report(PairSlot slot, const ContactTracker& preview, std::uint64_t allowed,
                       Finality finality);
@@ -125,11 +123,10 @@ class TrackedPairs {
   PairEvaluator evaluator_;
   StepBudget budget_;
   OwnerQueues owners_;
-  bool held_ = false;    // a pair could get less than it may need, in this step
-  bool scarce_ = false;  // the last step's budget was used up, or nearly
-  std::map<OwnerId, std::uint64_t> last_units_;  // of last evaluations in this step
-  std::vector<PairSlot> retracted_;              // since the last step, each once
-  std::vector<PairSlot> queued_;                 // that began to wait or became due in this step
+  bool held_ = false;                // a pair could get less than it may need, in this step
+  bool scarce_ = false;              // the last step's budget was used up, or nearly
+  std::vector<PairSlot> retracted_;  // since the last step, each once
+  std::vector<PairSlot> queued_;     // that began to wait or became due in this step
   Announcer announcer_;
   EventQueue<PairSlot> due_;  // by the time from which a pair is evaluated at every step
   std::vector<ReleasedPair> released_;

@@ -36,7 +36,8 @@ AgentId IdOf(const OwnerId& owner, std::uint32_t slot) {
   return {owner.simulator, slot, owner.run, 1};
 }
 
-Seen Fly(std::uint32_t crowd, double seconds, std::uint64_t slice = 0) {
+/// `returns`: when the crowd leaves and comes back in another run [s].
+Seen Fly(std::uint32_t crowd, double seconds, std::uint64_t slice = 0, double returns = -1) {
   DetectorOptions options;
   options.temporal_resolution = 1.0 / 16;
   options.work_units_per_step = kPerStep;
@@ -69,6 +70,12 @@ Seen Fly(std::uint32_t crowd, double seconds, std::uint64_t slice = 0) {
     const std::uint64_t before = detector.counters().work_units;
     for (const Mover& mover : movers) {
       if (now > 0) detector.Update(mover.id, State(now, mover.p + now * mover.v, mover.v), At(now));
+    }
+    for (Mover& mover : movers) {
+      if (now != returns || OwnerOf(mover.id) != kGreedy) continue;
+      detector.Remove(mover.id);
+      ++mover.id.run;
+      detector.Admit(mover.id, mesh, State(now, mover.p, mover.v), At(now));
     }
     detector.SetHeardUntil(kHonest, At(now));
     detector.SetHeardUntil(kGreedy, At(now));
@@ -127,6 +134,11 @@ TEST(GreedyOwner, IsHeldToTheStepsWork) {
   EXPECT_LE(beside.greedy.held_since, At(1));
   EXPECT_GT(beside.greedy.waiting, 100u);
   EXPECT_GT(beside.progress, beside.greedy.evaluated);
+}
+
+TEST(GreedyOwner, PaysForItsReturnOutOfOneCredit) {
+  const Seen beside = Fly(kCrowd, 4, 0, 2);
+  EXPECT_LE(beside.most, kPerStep + (1 + kPerStep / kTurnMin) * kOverrunOfTurn);
 }
 
 TEST(GreedyOwner, HasAllItsPairsAnnouncedAtOnceAndEvaluatedInTurn) {
