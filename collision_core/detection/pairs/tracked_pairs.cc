@@ -1,6 +1,7 @@
 #include "collision_core/detection/pairs/tracked_pairs.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "collision_core/detection/pairs/contact_rest.h"
@@ -182,6 +183,7 @@ std::vector<PairSlot> TrackedPairs::RetractPostponed() {
   retracted_.clear();
   std::sort(queued_.begin(), queued_.end());
   queued_.erase(std::unique(queued_.begin(), queued_.end()), queued_.end());
+  std::map<OwnerId, std::uint32_t> announced;
   std::vector<PairSlot> unannounced;
   for (const PairSlot slot : queued_) {
     if (!owners_.IsWaiting(slot) || table_[slot].published.announced) continue;
@@ -189,7 +191,14 @@ std::vector<PairSlot> TrackedPairs::RetractPostponed() {
     const Instant announce =
         numeric::AddRoundedUp(table_[slot].clear_until, -options_.announce_within);
     due_.Set(slot, announce);
-    if (announce <= context_.clock.now) unannounced.push_back(slot);
+    if (announce > context_.clock.now) continue;
+    const std::uint32_t later = announced[owners_.PayerOf(slot)]++ / kAnnouncedUnseen;
+    if (later == 0) {
+      unannounced.push_back(slot);
+    } else {
+      due_.Set(slot,
+               numeric::AddRoundedUp(context_.clock.now, later * options_.temporal_resolution));
+    }
   }
   return unannounced;
 }

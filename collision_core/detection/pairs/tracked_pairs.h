@@ -42,6 +42,10 @@ struct ReleasedPair {
 class TrackedPairs {
  public:
   static constexpr std::size_t kPairsEvaluatedEachStep = 512;
+  /// Of the pairs that one owner pays for and that wait for their first evaluation, so many are
+  /// announced in one step, the others as many in each temporal_resolution after it. Only the
+  /// forecast is late: until then the clearances of the two end where they may first meet.
+  static constexpr std::uint32_t kAnnouncedUnseen = 64;
 
   TrackedPairs(const DetectorOptions& options, const DetectorContext& context);
 
