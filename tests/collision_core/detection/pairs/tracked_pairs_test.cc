@@ -212,7 +212,7 @@ TEST_F(TrackedPairsTest, AnAgentThatLeavesTakesItsPairsAlong) {
 
 TEST_F(TrackedPairsTest, OfTheRetractionsOfAStepTheEarliestIsKept) {
   ASSERT_TRUE(pairs_.Track(a_, b_, At(10), Past::kKnown));
-  for (int k = 0; k < 1000; ++k) pairs_.RetractFree(k % 2 == 0 ? a_ : b_, At(5 + k % 3));
+  for (int k = 0; k < 1000; ++k) pairs_.RetractFree(k % 2 == 0 ? a_ : b_, At(7 - k % 3));
   EXPECT_EQ(pairs_.retracted(), 1u);
   EXPECT_EQ(PairOf(a_).retracted_from, At(5));
   Step(0);
