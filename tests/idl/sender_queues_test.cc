@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace collision::dds {
@@ -51,6 +52,18 @@ TEST(SenderQueues, ADisposalReplacesNoSampleAndIsReplacedByNone) {
   queues.Put(disposal, 2, 0);
   queues.Put(Of(1, 0), 3, 0);
   EXPECT_EQ(Taken(&queues), (std::vector<int>{2, 3}));
+}
+
+TEST(SenderQueues, AtOnceIsAPartOfWhatWaits) {
+  constexpr int kSamples = 1000;
+  Queues queues({});
+  EXPECT_EQ(queues.AtOnce(), kAtOnceMin);
+  for (int i = 0; i < kSamples; ++i) queues.Put(Of(1, static_cast<std::uint64_t>(i)), i, 0);
+  EXPECT_EQ(queues.AtOnce(), kSamples * (100 + kSampleOverhead) / kAtOnceShare);
+  EXPECT_LE(Taken(&queues, kNoLimit, 0, queues.AtOnce()).size(), kSamples / kAtOnceShare + 1);
+  queues.Put(Of(2, 0), kSamples, 0);
+  const std::vector<int> next = Taken(&queues, kNoLimit, 0, queues.AtOnce());
+  EXPECT_EQ(std::count(next.begin(), next.end(), kSamples), 1) << "it waits for one part only";
 }
 
 TEST(SenderQueues, AFloodTakesNoMoreThanItsShareOfABatch) {

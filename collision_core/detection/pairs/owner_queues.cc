@@ -25,8 +25,11 @@ void OwnerQueues::AddPair(PairSlot slot, const OwnerId& a, const OwnerId& b) {
   CORE_CHECK(entries_[slot].b == nullptr, "a slot has one pair", slot.value());
   const auto join = [this](const OwnerId& id) {
     Queue& owner = owners_[id];
-    owner.work.owner = id;
-    ++owner.pairs;
+    if (owner.pairs++ == 0) {
+      owner.work.owner = id;
+      owner.account = &accounts_[id.simulator];
+      ++owner.account->owners;
+    }
     return &owner;
   };
   Queue* const first = join(a);
@@ -43,7 +46,9 @@ void OwnerQueues::RemovePair(PairSlot slot) {
 }
 
 void OwnerQueues::Leave(Queue* owner) {
-  if (--owner->pairs == 0) owners_.erase(OwnerId(owner->work.owner));
+  if (--owner->pairs > 0) return;
+  if (--owner->account->owners == 0) debtors_.push_back(owner->work.owner.simulator);
+  owners_.erase(OwnerId(owner->work.owner));
 }
 
 OwnerQueues::Queue* OwnerQueues::PayerOf(const Entry& entry) const {
@@ -86,37 +91,64 @@ void OwnerQueues::Unlink(PairSlot slot) {
 }
 
 // A debt is at most one step's work, so that it is paid off within that many resolutions.
-void OwnerQueues::GrowCredit(double units, double owners, Instant now, Queue* owner) const {
-  if (owner->credited_at == Instant::Always()) {
-    owner->credit = units;
+void OwnerQueues::GrowCredit(double units, double owners, double most, Instant now,
+                             Account* account) const {
+  if (account->credited_at == Instant::Always()) {
+    account->credit = most;
   } else {
-    const double seconds = numeric::SecondsBetween(owner->credited_at, now).lower;
+    const double seconds = numeric::SecondsBetween(account->credited_at, now).lower;
     const double more = units / owners * seconds / temporal_resolution_;
-    owner->credit = std::min(units, std::max(-units, owner->credit) + more);
+    account->credit = std::min(most, std::max(-units, account->credit) + more);
   }
-  owner->credited_at = now;
+  account->credited_at = now;
+}
+
+double OwnerQueues::CreditMax(const Queue& owner, std::uint64_t units) const {
+  const std::uint64_t most = IsHeld(owner) ? std::min(2 * slice_, units) : units;
+  return static_cast<double>(most);
+}
+
+// Simulators without pairs whose debts are paid off.
+void OwnerQueues::ForgetSettled(double units, Instant now) {
+  const bool many = debtors_.size() > kDebtorsMax;
+  std::size_t surplus = many ? debtors_.size() - kDebtorsMax : 0;
+  std::erase_if(debtors_, [&](std::uint64_t simulator) {
+    const auto found = accounts_.find(simulator);
+    if (found == accounts_.end() || found->second.owners > 0) return true;  // it came back
+    if (surplus > 0) {
+      --surplus;
+    } else {
+      GrowCredit(units, 1, units, now, &found->second);
+      if (found->second.credit < units) return false;
+    }
+    accounts_.erase(found);
+    return true;
+  });
 }
 
 bool OwnerQueues::GivesWay(const Queue& owner, std::uint64_t units, Instant now) const {
   if (!IsHeld(owner) || owner.sliced_at == Instant::Always()) return false;
   const double slices = static_cast<double>(units) / static_cast<double>(slice_);
-  return numeric::SecondsBetween(owner.sliced_at, now).upper < 2 * temporal_resolution_ / slices;
+  return numeric::SecondsBetween(owner.sliced_at, now).upper <
+         kGivesWay * temporal_resolution_ / slices;
 }
 
 std::vector<PairTurn> OwnerQueues::Take(std::uint64_t units,
                                         const std::function<std::uint64_t(PairSlot)>& cost,
-                                        Instant now) {
+                                        Instant now, bool news) {
+  ForgetSettled(static_cast<double>(units), now);
   std::vector<Queue*> owners;
   const auto next = waiting_owners_.upper_bound(last_turn_);
   for (auto at = next; at != waiting_owners_.end(); ++at) owners.push_back(at->second);
   for (auto at = waiting_owners_.begin(); at != next; ++at) owners.push_back(at->second);
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
-  const bool others = std::any_of(owners.begin(), owners.end(),
-                                  [this](const Queue* owner) { return !IsHeld(*owner); });
+  const bool others = news || std::any_of(owners.begin(), owners.end(),
+                                          [this](const Queue* owner) { return !IsHeld(*owner); });
   for (std::size_t i = 0; i < owners.size(); ++i) {
-    GrowCredit(static_cast<double>(units), static_cast<double>(owners.size()), now, owners[i]);
+    GrowCredit(static_cast<double>(units), static_cast<double>(owners.size()),
+               CreditMax(*owners[i], units), now, owners[i]->account);
     const bool passes = others && GivesWay(*owners[i], units, now);
-    if (owners[i]->credit >= 0 && !passes) candidates.push({0, i});
+    if (owners[i]->account->credit >= 0 && !passes) candidates.push({0, i});
   }
   const auto sharing = static_cast<std::uint32_t>(owners.size());
 
@@ -134,10 +166,10 @@ std::vector<PairTurn> OwnerQueues::Take(std::uint64_t units,
     const std::uint64_t most = held ? std::min(slice_, units) : units;
     if (held) owner.sliced_at = now;
     turns.push_back({slot, owner.work.owner, takes, most});
-    owner.credit -= static_cast<double>(takes);
+    owner.account->credit -= static_cast<double>(takes);
     last_turn_ = owner.work.owner;
     Unlink(slot);
-    const bool has_more = owner.work.waiting > 0 && owner.credit >= 0;
+    const bool has_more = owner.work.waiting > 0 && owner.account->credit >= 0;
     if (has_more && (!held || taken + takes < most)) candidates.push({taken + takes, order});
   }
   for (const auto& [id, owner] : waiting_owners_) {
@@ -149,11 +181,22 @@ std::vector<PairTurn> OwnerQueues::Take(std::uint64_t units,
 }
 
 void OwnerQueues::RecordEvaluation(const PairTurn& turn, std::uint64_t units) {
-  const auto owner = owners_.find(turn.payer);
+  accounts_.at(turn.payer.simulator).credit += static_cast<double>(turn.cost);
+  Charge(turn.payer, units);
+}
+
+std::uint64_t OwnerQueues::CreditOf(const OwnerId& payer, std::uint64_t units, Instant now) {
+  const Queue& owner = owners_.at(payer);
+  GrowCredit(static_cast<double>(units), 1, CreditMax(owner, units), now, owner.account);
+  return static_cast<std::uint64_t>(std::max(owner.account->credit, 0.0));
+}
+
+void OwnerQueues::Charge(const OwnerId& payer, std::uint64_t units) {
+  accounts_.at(payer.simulator).credit -= static_cast<double>(units);
+  const auto owner = owners_.find(payer);
   if (owner == owners_.end()) return;  // that was its last pair
   ++owner->second.work.evaluated;
   owner->second.work.work_units += units;
-  owner->second.credit += static_cast<double>(turn.cost) - static_cast<double>(units);
 }
 
 std::vector<OwnerWork> OwnerQueues::work() const {
@@ -175,6 +218,12 @@ void OwnerQueues::Validate() const {
     ++waiting[entry.waits_in];
   }
   std::size_t all = 0;
+  std::map<const Account*, std::uint32_t> of_account;
+  for (const auto& [id, owner] : owners_) ++of_account[owner.account];
+  for (const auto& [simulator, account] : accounts_) {
+    CORE_CHECK(account.owners == of_account[&account], "the owners of an account are counted",
+               account.owners);
+  }
   for (const auto& [id, owner] : owners_) {
     CORE_CHECK(owner.pairs > 0 && owner.pairs == pairs[&owner], "an owner's pairs are counted",
                owner.pairs);

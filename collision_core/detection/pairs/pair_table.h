@@ -25,6 +25,8 @@ struct PairRecord {
   /// RetractFree() takes back.
   ContactTracker tracker;
   Instant clear_until;  ///< No contact begins before this; not later than now while undecided.
+  /// Freedom beyond this was taken back since the last step; Never(): none.
+  Instant retracted_from = Instant::Never();
   /// The canonical earliest intersection from `now` on, as of step `canonical_step`.
   Instant canonical = Instant::Never();
   std::uint64_t canonical_step = 0;

@@ -1,6 +1,7 @@
 #include "collision_core/detection/pairs/tracked_pairs.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "collision_core/detection/pairs/contact_rest.h"
@@ -101,7 +102,8 @@ void TrackedPairs::RetractFree(AgentIndex agent, Instant from) {
     PairRecord& pair = table_[slot];
     pair.tracker.RetractFree(from, Past::kKnown);
     extremes_.Set(slot, pair.lower, pair.higher, ExtremesOf(pair));
-    retracted_.push_back({slot, from});
+    if (pair.retracted_from.is_never()) retracted_.push_back(slot);
+    pair.retracted_from = std::min(pair.retracted_from, from);
   }
 }
 
@@ -111,17 +113,15 @@ void TrackedPairs::MarkBroken(AgentIndex agent, Instant last_honest) {
   for (const PairSlot slot : table_.Of(agent)) table_[slot].published.broken = true;
 }
 
-void TrackedPairs::StartStep() {
-  announcer_.Start(context_.clock.now);
-  last_units_.clear();
-}
+void TrackedPairs::StartStep() { announcer_.Start(context_.clock.now); }
 
 void TrackedPairs::EvaluateDuePairs() {
   QueueDuePairs();
   const bool limited = budget_.is_limited();
   const auto cost = [&](PairSlot slot) { return limited ? TurnCostOf(slot) : 0; };
   const std::vector<PairTurn> turns =
-      owners_.Take(limited ? budget_.per_step() : 0, cost, context_.clock.now);
+      owners_.Take(limited ? budget_.per_step() : 0, cost, context_.clock.now,
+                   !context_.agents.changed().empty());
   const std::vector<PairSlot> unannounced = RetractPostponed();
   if (limited) {
     std::vector<PairClaim> claims;
@@ -171,13 +171,19 @@ void TrackedPairs::QueueDuePairs() {
 // What was certified of the pairs that wait for a later step still holds, unless an agent was
 // renewed. Returns those that must be announced meanwhile, by slot.
 std::vector<PairSlot> TrackedPairs::RetractPostponed() {
-  for (const auto& [slot, from] : retracted_) {
+  for (const PairSlot slot : retracted_) {
+    if (!table_.Contains(slot)) continue;
+    PairRecord& pair = table_[slot];
+    const Instant from = std::exchange(pair.retracted_from, Instant::Never());
     if (!owners_.IsWaiting(slot)) continue;
-    table_[slot].clear_until = std::min(table_[slot].clear_until, from);
+    pair.clear_until = std::min(pair.clear_until, from);
     MarkChanged(slot);
     queued_.push_back(slot);
   }
   retracted_.clear();
+  std::sort(queued_.begin(), queued_.end());
+  queued_.erase(std::unique(queued_.begin(), queued_.end()), queued_.end());
+  std::map<OwnerId, std::uint32_t> announced;
   std::vector<PairSlot> unannounced;
   for (const PairSlot slot : queued_) {
     if (!owners_.IsWaiting(slot) || table_[slot].published.announced) continue;
@@ -185,10 +191,15 @@ std::vector<PairSlot> TrackedPairs::RetractPostponed() {
     const Instant announce =
         numeric::AddRoundedUp(table_[slot].clear_until, -options_.announce_within);
     due_.Set(slot, announce);
-    if (announce <= context_.clock.now) unannounced.push_back(slot);
+    if (announce > context_.clock.now) continue;
+    const std::uint32_t later = announced[owners_.PayerOf(slot)]++ / kAnnouncedUnseen;
+    if (later == 0) {
+      unannounced.push_back(slot);
+    } else {
+      due_.Set(slot,
+               numeric::AddRoundedUp(context_.clock.now, later * options_.temporal_resolution));
+    }
   }
-  std::sort(unannounced.begin(), unannounced.end());
-  unannounced.erase(std::unique(unannounced.begin(), unannounced.end()), unannounced.end());
   return unannounced;
 }
 
@@ -336,18 +347,15 @@ void TrackedPairs::EvaluateLastTime(AgentIndex agent, Departure departure) {
   for (const PairSlot slot : slots) {
     const OwnerId payer = owners_.PayerOf(slot);
     const std::uint64_t before = context_.counters->work_units;
-    Evaluate(slot, AllowedAtLast(payer), Finality::kLast);
-    last_units_[payer] += context_.counters->work_units - before;
+    std::uint64_t allowed = options_.work_units_per_evaluation;
+    if (budget_.is_limited()) {
+      allowed = std::min(allowed, owners_.CreditOf(payer, budget_.per_step(), context_.clock.now));
+    }
+    Evaluate(slot, allowed, Finality::kLast);
+    owners_.Charge(payer, context_.counters->work_units - before);
     if (table_.Contains(slot)) Drop(slot, departure);
     context_.clock.MadeProgress();
   }
-}
-
-std::uint64_t TrackedPairs::AllowedAtLast(const OwnerId& payer) {
-  if (!budget_.is_limited()) return options_.work_units_per_evaluation;
-  const std::uint64_t spent = last_units_[payer];
-  const std::uint64_t left = budget_.per_step() - std::min(spent, budget_.per_step());
-  return std::min(options_.work_units_per_evaluation, left);
 }
 
 // The two are no longer watched: closes their event and releases the slot.

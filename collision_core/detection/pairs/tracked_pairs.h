@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <vector>
 
 #include "collision_core/detection/agents/detector_context.h"
@@ -43,6 +42,10 @@ struct ReleasedPair {
 class TrackedPairs {
  public:
   static constexpr std::size_t kPairsEvaluatedEachStep = 512;
+  /// Of the pairs that one owner pays for and that wait for their first evaluation, so many are
+  /// announced in one step, the others as many in each temporal_resolution after it. Only the
+  /// forecast is late: until then the clearances of the two end where they may first meet.
+  static constexpr std::uint32_t kAnnouncedUnseen = 64;
 
   TrackedPairs(const DetectorOptions& options, const DetectorContext& context);
 
@@ -69,8 +72,8 @@ class TrackedPairs {
   /// Evaluates the pairs of all agents that have changed, and those that are due, within the step's
   /// budget.
   void EvaluateDuePairs();
-  /// The agent leaves or expires: evaluates its pairs a last time and tracks them no longer. Each
-  /// owner may spend one step's budget on that; the pairs beyond it end undecided.
+  /// The agent leaves or expires: evaluates its pairs a last time and tracks them no longer. Their
+  /// owners pay out of their credit; the pairs beyond it end undecided.
   void EvaluateLastTime(AgentIndex agent, Departure departure);
 
   /// Pairs released since the last call, in the order of their release. The caller lowers the keys
@@ -87,6 +90,8 @@ class TrackedPairs {
 
   const std::vector<CollisionEvent>& events() const { return announcer_.events(); }
   std::size_t queued() const { return due_.size(); }
+  /// Pairs whose freedom was taken back since the last step: each once, however often that was.
+  std::size_t retracted() const { return retracted_.size(); }
   /// Pairs that wait for a later step, since the work of this one was used up.
   std::size_t waiting() const { return owners_.waiting(); }
   std::vector<OwnerWork> owner_work() const { return owners_.work(); }
@@ -95,12 +100,6 @@ class TrackedPairs {
   void Validate() const;
 
  private:
-  /// The freedom of a pair was taken back from an instant on.
-  struct Retraction {
-    PairSlot slot;
-    Instant from;
-  };
-
   void QueueDuePairs();
   std::vector<PairSlot> RetractPostponed();
   void FindFirstClearance(PairSlot slot);
@@ -108,7 +107,6 @@ class TrackedPairs {
   std::uint64_t TurnCostOf(PairSlot slot) const;
   WorkClaim ClaimOf(const PairTurn& turn) const;
   WorkClaim ClaimOf(PairSlot slot) const;
-  std::uint64_t AllowedAtLast(const OwnerId& payer);
   void Evaluate(PairSlot slot, std::uint64_t allowed, Finality finality);
   PairInterest Report(PairSlot slot, const ContactTracker& preview, std::uint64_t allowed,
                       Finality finality);
@@ -129,11 +127,10 @@ class TrackedPairs {
   PairEvaluator evaluator_;
   StepBudget budget_;
   OwnerQueues owners_;
-  bool held_ = false;    // a pair could get less than it may need, in this step
-  bool scarce_ = false;  // the last step's budget was used up, or nearly
-  std::map<OwnerId, std::uint64_t> last_units_;  // of last evaluations in this step
-  std::vector<Retraction> retracted_;            // since the last step
-  std::vector<PairSlot> queued_;                 // that began to wait or became due in this step
+  bool held_ = false;                // a pair could get less than it may need, in this step
+  bool scarce_ = false;              // the last step's budget was used up, or nearly
+  std::vector<PairSlot> retracted_;  // since the last step, each once
+  std::vector<PairSlot> queued_;     // that began to wait or became due in this step
   Announcer announcer_;
   EventQueue<PairSlot> due_;  // by the time from which a pair is evaluated at every step
   std::vector<ReleasedPair> released_;

@@ -15,7 +15,7 @@ struct DetectorOptions {
   double skew = 0;                  ///< κ [s]: a sender's clock is off by at most this.
   std::uint32_t agents_max = 1000;  ///< Admit() refuses beyond.
   /// Pairs tracked at once. Beyond, both agents are saturated and queried again after
-  /// announce_within / 8.
+  /// announce_within / 16 to announce_within / 8.
   std::uint32_t pairs_max = 65536;
   std::uint32_t pairs_per_agent_max = 256;  ///< Likewise for one agent.
   /// States of one agent that are kept; beyond, every second old state is dropped and brackets
@@ -27,7 +27,7 @@ struct DetectorOptions {
   /// Likewise in one step, and in each temporal_resolution of `now`, on all pairs: shared out first
   /// among owners, then among their pairs (pairs/owner_queues.h, pairs/step_budget.h). Pairs beyond
   /// it wait for a later step. The last evaluations of pairs of which an agent leaves or expires
-  /// may spend as much again for each owner. 0: no limit but each evaluation's.
+  /// come beside it: owners pay for them out of their credit. 0: no limit but each evaluation's.
   std::uint64_t work_units_per_step = 0;
   /// Of that, at most what an owner may spend in one step if some of its pairs have waited since an
   /// earlier one. It then gets its share of a temporal_resolution in several short steps, and holds

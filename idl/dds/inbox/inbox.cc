@@ -148,6 +148,7 @@ std::vector<ArrivedSample> Inbox::Take(std::size_t samples, std::size_t bytes) {
     before = taken.size();
     const std::lock_guard lock(mutex_);
     triggered_ = false;
+    if (before == 0) bytes = std::min(bytes, queues_.AtOnce());
     queues_.Take(std::min(samples - before, kAtATime), bytes - size, Now(), &taken);
     for (std::size_t i = before; i < taken.size(); ++i) {
       size += std::min(bytes - size, ddsi_serdata_size(taken[i].data.get()) + kSampleOverhead);

@@ -66,7 +66,7 @@ class Inbox {
   /// kept; `topic` comes back with each sample.
   dds_rhc* MakeHistory(std::size_t topic, std::size_t depth);
 
-  /// As SenderQueues::Take().
+  /// As SenderQueues::Take(), with no more bytes than SenderQueues::AtOnce().
   std::vector<ArrivedSample> Take(std::size_t samples, std::size_t bytes);
 
   /// The writers whose first sample has arrived since the last call.

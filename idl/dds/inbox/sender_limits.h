@@ -30,6 +30,11 @@ inline constexpr std::size_t kBehind = 16384;
 /// is ignored.
 inline constexpr std::size_t kRefusedMax = 65536;
 
+/// What is taken at once of all that waits: this part, and at least so many bytes (about a full
+/// message of states).
+inline constexpr std::size_t kAtOnceShare = 8;
+inline constexpr std::size_t kAtOnceMin = 8192;
+
 /// How long it is ignored for the first time [ns]; then twice as long each time, up to the maximum.
 /// So long after it was last ignored, it counts as new.
 inline constexpr std::int64_t kIgnoredFor = 10'000'000'000;

@@ -93,6 +93,11 @@ class SenderQueues {
     std::erase_if(queues_, [&](const auto& entry) { return IsForgotten(entry.second, now_ns); });
   }
 
+  /// How much should be taken at once [bytes]: a part of what waits. So a sample that arrives while
+  /// the burst of another sender is worked on waits for that part only, and a program that is far
+  /// behind still takes much at once.
+  std::size_t AtOnce() const { return std::max(kAtOnceMin, waiting_bytes_ / kAtOnceShare); }
+
   /// How long until something should be taken [ns]; nullopt: nothing waits. Of what exceeds a rate
   /// some gathers first.
   std::optional<std::int64_t> UntilReady(std::int64_t now_ns) {

@@ -7,8 +7,10 @@
 namespace collision::detection {
 namespace {
 
-/// A saturated agent is queried again after this share of announce_within.
+/// A saturated agent is queried again after at most this share of announce_within, each agent after
+/// another part of the share's second half, so that a crowd is not queried in one step.
 constexpr double kSaturatedShare = 0.125;
+constexpr std::uint32_t kSaturatedTimes = 64;
 
 /// Beyond announce_until by this much [s], so that it is not due before that time has passed.
 constexpr double kAfterShare = 1e-9;
@@ -81,7 +83,8 @@ void CoverageTable::Saturate(AgentIndex agent, AgentIndex partner) {
   record.keys.SetAll(std::max(context_.clock.now, context_.agents[agent].stamp()));
   lowerable_.Remove(agent);
   context_.clearances_dirty->Insert(agent);
-  const double rest = kSaturatedShare * context_.clock.announce_within;
+  const double part = static_cast<double>(agent.value() % kSaturatedTimes) / kSaturatedTimes;
+  const double rest = kSaturatedShare * context_.clock.announce_within * (1 + part) / 2;
   due_.Set(agent, numeric::AddRoundedUp(
                       numeric::AddRoundedDown(context_.clock.announce_until(), rest), kAfterShare));
   if (saturated_.Insert(agent)) ++context_.counters->saturations;

@@ -143,7 +143,7 @@ TEST(ClearanceQueries, WhereOnlyTheKeyOfATierIsDueTheComparableKeyStays) {
   EXPECT_TRUE(scene.coverage.IsLowerable(agent));
 }
 
-TEST(ClearanceQueries, ASaturatedAgentIsQueriedAgainAfterAnEighthOfWhatIsAnnounced) {
+TEST(ClearanceQueries, ASaturatedAgentIsQueriedAgainAfterASixteenthOfWhatIsAnnounced) {
   Scene scene(1);
   const AgentIndex agent = scene.AddRenewed({0, 0, 0}, {0, 0, 0});
   scene.AddSettled({3.5, 0, 0}, {-1, 0, 0});
@@ -152,9 +152,9 @@ TEST(ClearanceQueries, ASaturatedAgentIsQueriedAgainAfterAnEighthOfWhatIsAnnounc
   ASSERT_TRUE(scene.coverage.IsSaturated(agent));
   EXPECT_EQ(scene.coverage[agent].crowded_with, second);
   EXPECT_FALSE(scene.coverage.IsLowerable(agent));
-  scene.Step(0.249);
-  EXPECT_FALSE(scene.WasQueried(agent));
-  scene.Step(0.251);
+  scene.Step(0.124);
+  EXPECT_FALSE(scene.WasQueried(agent)) << "the first of all agents waits for the shortest time";
+  scene.Step(0.126);
   EXPECT_TRUE(scene.WasQueried(agent));
   EXPECT_TRUE(scene.coverage.IsSaturated(agent));
   scene.agents[second].declaration.filter.mask = 0;

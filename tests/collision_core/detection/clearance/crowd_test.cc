@@ -50,6 +50,22 @@ struct Crowd {
   std::optional<Detector> detector;
 };
 
+// Each is queried again after 1/8 to 1/4 s, though all of them became saturated at once.
+TEST(ACrowd, IsNotQueriedInOneStep) {
+  constexpr std::uint32_t kAgents = 256;
+  Crowd crowd(kAgents, 10);
+  for (int i = 0; i < 64; ++i) crowd.Step(0);
+  const std::uint64_t before = crowd.detector->counters().queries;
+  std::uint64_t most = 0;
+  for (int i = 0; i < 64; ++i) {
+    const std::uint64_t queries = crowd.detector->counters().queries;
+    crowd.Step(0);
+    most = std::max(most, crowd.detector->counters().queries - queries);
+  }
+  EXPECT_LE(most, kAgents / 2);
+  EXPECT_GE(crowd.detector->counters().queries - before, 3 * kAgents);
+}
+
 // In two seconds each contact is judged ten times or so, not 128 times.
 TEST(ACrowd, ContactsThatCannotEndRest) {
   constexpr std::uint32_t kPairs = 4000;

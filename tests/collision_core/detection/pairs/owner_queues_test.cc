@@ -25,11 +25,11 @@ class OwnerQueuesTest : public testing::Test {
   }
 
   /// The slots whose turn it is, `steps` Δt after the last.
-  std::vector<std::uint32_t> Take(std::uint64_t units, double steps = 1) {
+  std::vector<std::uint32_t> Take(std::uint64_t units, double steps = 1, bool news = false) {
     now_ += steps * kStep;
     std::vector<std::uint32_t> slots;
     for (const PairTurn& turn : queues_.Take(
-             units, [](PairSlot) { return std::uint64_t{10}; }, At(now_))) {
+             units, [](PairSlot) { return std::uint64_t{10}; }, At(now_), news)) {
       slots.push_back(turn.slot.value());
       queues_.RecordEvaluation(turn, 10);
     }
@@ -131,20 +131,81 @@ TEST_F(SlicedOwnerQueuesTest, AnOwnerWhosePairsHaveWaitedSpendsASliceInOneStep) 
   EXPECT_EQ(Take(40).size(), 4u) << "nothing has waited yet";
   EXPECT_EQ(Take(40).size(), 2u);
   for (std::uint32_t slot = 20; slot < 24; ++slot) Add(slot, kOne, kOne);
-  EXPECT_EQ(Take(60), (Slots{6, 7, 20, 21, 22, 23})) << "the other one has waited for nothing";
+  EXPECT_EQ(Take(60, 4), (Slots{6, 7, 20, 21, 22, 23})) << "the other one has waited for nothing";
 }
 
-// A slice of 20 of 40 in each Δt: one is due each half of it, and puts itself off by as much.
+// A slice of 20 of 40 in each Δt: one is due each half of it, and gives way for eight of them.
 TEST_F(SlicedOwnerQueuesTest, AnOwnerThatIsHeldGivesWayToTheOthers) {
   for (std::uint32_t slot = 0; slot < 20; ++slot) Add(slot, kMany, kMany);
   Take(40), Take(40);
   Add(20, kOne, kOne);
   EXPECT_EQ(Take(40, 0.5), (Slots{20}));
   EXPECT_EQ(Take(40, 0).size(), 2u) << "alone it need not wait";
-  for (const bool waits_on : {true, false, true, false}) {
+  for (int step = 1; step <= 16; ++step) {
     queues_.Wait(PairSlot(20u));
-    EXPECT_EQ(Take(40, 0.5).size(), waits_on ? 1u : 3u);
+    EXPECT_EQ(Take(40, 0.5).size(), step % 8 == 0 ? 3u : 1u) << step;
   }
+}
+
+TEST_F(SlicedOwnerQueuesTest, AnOwnerThatIsHeldGivesWayToNews) {
+  for (std::uint32_t slot = 0; slot < 20; ++slot) Add(slot, kMany, kMany);
+  Take(40), Take(40);
+  for (int step = 1; step <= 16; ++step) {
+    EXPECT_EQ(Take(40, 0.5, true).size(), step % 8 == 0 ? 2u : 0u) << step;
+  }
+}
+
+TEST_F(SlicedOwnerQueuesTest, AnOwnerThatIsHeldSavesUpTwoSlices) {
+  for (std::uint32_t slot = 0; slot < 60; ++slot) Add(slot, kMany, kMany);
+  EXPECT_EQ(Take(400).size(), 40u) << "nothing has waited yet";
+  EXPECT_EQ(Take(400, 100).size(), 2u);
+  EXPECT_EQ(Take(400, 0).size(), 2u);
+  EXPECT_EQ(Take(400, 0).size(), 1u) << "the turn that ends in debt";
+  EXPECT_EQ(Take(400, 0).size(), 0u);
+}
+
+TEST_F(OwnerQueuesTest, ADebtOutlivesThePairsAndTheRun) {
+  constexpr OwnerId kNextRun{kMany.simulator, kMany.run + 1};
+  Add(0, kMany, kMany);
+  Take(40);
+  EXPECT_EQ(queues_.CreditOf(kMany, 40, At(now_)), 30u);
+  queues_.Charge(kMany, 60);
+  queues_.RemovePair(PairSlot(0u));
+  Add(1, kNextRun, kNextRun);
+  EXPECT_TRUE(Take(40, 0).empty()) << "no fresh credit in the same step";
+  queues_.RemovePair(PairSlot(1u));
+  EXPECT_TRUE(Take(40, 0.25).empty()) << "nothing waits, and the debt stays";
+  Add(2, kNextRun, kNextRun);
+  EXPECT_TRUE(Take(40, 0.25).empty());
+  EXPECT_EQ(Take(40, 0.5), (Slots{2})) << "paid off";
+}
+
+TEST_F(OwnerQueuesTest, DebtsAreForgottenOnceTheyArePaidOff) {
+  Add(0, kMany, kMany);
+  Take(40);
+  queues_.Charge(kMany, 60);
+  queues_.RemovePair(PairSlot(0u));
+  EXPECT_EQ(queues_.debtors(), 1u);
+  Take(40, 1);
+  EXPECT_EQ(queues_.debtors(), 1u) << "it has no full credit yet";
+  Take(40, 1);
+  EXPECT_EQ(queues_.debtors(), 0u);
+}
+
+TEST_F(OwnerQueuesTest, TheOldestDebtsGiveWay) {
+  constexpr auto kMax = static_cast<std::uint32_t>(OwnerQueues::kDebtorsMax);
+  for (std::uint32_t k = 0; k <= kMax; ++k) {
+    const OwnerId owner{100 + k, 1};
+    queues_.AddPair(PairSlot(0u), owner, owner);
+    queues_.CreditOf(owner, 40, At(now_));
+    queues_.Charge(owner, 60);
+    queues_.RemovePair(PairSlot(0u));
+  }
+  Take(40, 0);
+  EXPECT_EQ(queues_.debtors(), kMax);
+  Add(0, {100, 1}, {100, 1});
+  Add(1, {101, 1}, {101, 1});
+  EXPECT_EQ(Take(40, 0), (Slots{0})) << "of the two the first one's is forgotten";
 }
 
 TEST_F(SlicedOwnerQueuesTest, TheSlicesOfAResolutionAreTheOwnersShare) {

@@ -210,6 +210,15 @@ TEST_F(TrackedPairsTest, AnAgentThatLeavesTakesItsPairsAlong) {
   pairs_.ForgetAgent(a_);
 }
 
+TEST_F(TrackedPairsTest, OfTheRetractionsOfAStepTheEarliestIsKept) {
+  ASSERT_TRUE(pairs_.Track(a_, b_, At(10), Past::kKnown));
+  for (int k = 0; k < 1000; ++k) pairs_.RetractFree(k % 2 == 0 ? a_ : b_, At(7 - k % 3));
+  EXPECT_EQ(pairs_.retracted(), 1u);
+  EXPECT_EQ(PairOf(a_).retracted_from, At(5));
+  Step(0);
+  EXPECT_EQ(pairs_.retracted(), 0u);
+}
+
 TEST_F(TrackedPairsTest, RetractedFreedomNeedsOlderStates) {
   ASSERT_TRUE(pairs_.Track(a_, b_, At(10), Past::kKnown));
   EXPECT_EQ(pairs_.ExtremesOf(a_).needed_from, At(10));
