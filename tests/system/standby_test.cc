@@ -68,7 +68,8 @@ TEST_F(StandbyTest, OneThatStoodStillFindsItselfReplaced) {
   first_->Signal(SIGSTOP);
   ExpectTakeOver();
   first_->Signal(SIGCONT);
-  EXPECT_TRUE(first_->WaitForOutput("goes before term 1: stands by")) << first_->err();
+  EXPECT_TRUE(first_->WaitForOutput("goes before term 1: starts afresh, to stand by"))
+      << first_->err();
   EXPECT_TRUE(world_.MonitorComesToSay({"status"}, "standby"));
   ExpectOneContact();
 }
