@@ -34,9 +34,11 @@ struct AgentId {
 /// service's answers wrong until it notices the breach; a bound that is too wide only makes them
 /// less sharp.
 struct AgentDescription {
-  std::string name = {};             ///< 1 to 64 bytes, for people.
-  double radius_m = 0;               ///< Ball about the reference point that contains the agent.
-  double acceleration_max_m_s2 = 0;  ///< Never exceeded between two states without a discontinuity.
+  std::string name = {};  ///< 1 to 64 bytes, for people.
+  double radius_m = 0;    ///< Ball about the reference point that contains the agent.
+  /// Never exceeded between two states without a discontinuity. Two agents at rest with 0 cannot
+  /// move: the service tells nothing of the two, even if they overlap.
+  double acceleration_max_m_s2 = 0;
   double angular_acceleration_max_rad_s2 = -1;  ///< < 0: not declared.
   double speed_max_m_s = 0;  ///< Of the reference point, never exceeded; 0: not declared.
   double time_step_s = 0;    ///< Step h of an Euler integrator; 0: the motion is continuous.
