@@ -119,10 +119,11 @@ void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& even
   if (speaks() && !world.simulated()) bus_.Flush();
 }
 
-void Publisher::BeginToSpeak(const World& world) {
-  if (!is_unheard_ || world.followers() == 0) return;
+bool Publisher::BeginToSpeak(const World& world) {
+  if (!is_unheard_ || world.followers() == 0) return false;
   is_unheard_ = false;
   PublishInherited(world);
+  return true;
 }
 
 void Publisher::Hear(const v1::CollisionEvent& event) {

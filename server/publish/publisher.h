@@ -53,8 +53,8 @@ class Publisher {
 
   /// Begins to speak if it has taken over and a simulator follows it: publishes the contacts that
   /// the other service has not, and what stands told of pairs whose event is not over; readers know
-  /// which of these they have heard. Call it before the events of a step.
-  void BeginToSpeak(const World& world);
+  /// which of these they have heard. True: it does. Call it before the events of a step.
+  bool BeginToSpeak(const World& world);
 
   /// Whether somebody reads the earliest intersection and `earliest_period_s` is over since it was
   /// last published or found unchanged.

@@ -114,7 +114,7 @@ class Daemon::Implementation {
     full_batches_.Take(inputs, config_.inputs_per_batch_max());
     if (!full_batches_.holds_clocks()) intake_.TakeClocks();
     rounds_.ApplyKept();
-    publisher_.BeginToSpeak(world_);
+    if (publisher_.BeginToSpeak(world_)) schedule_.Hasten();
     const bool restarts = claim_.works() && operators_.ObeyAll(inputs);
     if (operators_.TakeNews()) schedule_.Hasten();
     const bool removed = RemoveSilent();

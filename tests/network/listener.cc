@@ -60,7 +60,8 @@ client::MessageMonitor::Callbacks Into(Heard* heard, std::mutex* mutex) {
   callbacks.status = [=](const v1::ServiceStatus& status) {
     const std::scoped_lock lock(*mutex);
     heard->observations.status = status;
-    heard->statuses.push_back({steady_clock::now(), status.service_id(), status.stamp().term()});
+    heard->statuses.push_back(
+        {steady_clock::now(), status.service_id(), status.stamp().term(), status.followers() > 0});
     if (!status.simulators().empty())
       heard->now_ns = std::max<std::int64_t>(heard->now_ns, status.now_ns());
   };

@@ -21,6 +21,7 @@ struct HeardStatus {
   std::chrono::steady_clock::time_point at;  ///< When it arrived.
   std::uint64_t service = 0;
   std::uint32_t term = 0;
+  bool followed = false;  ///< By simulators.
 };
 
 /// All that was heard so far.

@@ -70,6 +70,16 @@ HeardStatus AwaitSuccessor(Testbed* testbed, std::uint64_t service) {
   return successor;
 }
 
+/// Until simulators follow it: then the one before it cannot come back.
+void AwaitFollowers(Testbed* testbed, std::uint64_t service) {
+  const bool followed = testbed->Await([&](const Heard& all) {
+    return std::any_of(all.statuses.begin(), all.statuses.end(), [&](const auto& status) {
+      return status.service == service && status.followed;
+    });
+  });
+  if (!followed) throw std::runtime_error("nobody follows the standby that took over");
+}
+
 std::size_t Services(const Heard& heard) {
   std::size_t services = 0;
   for (std::size_t i = 0; i < heard.statuses.size(); ++i) {
@@ -118,6 +128,7 @@ void TakeOver(const Setting& setting, Outcome* outcome) {
     const HeardStatus successor = AwaitSuccessor(&testbed, before.service);
     milliseconds.push_back(
         std::chrono::duration<double, std::milli>(successor.at - failed_at).count());
+    AwaitFollowers(&testbed, successor.service);
     Mend(&testbed, active, kFault);
   }
   const Flown flown = testbed.FinishNow();
