@@ -51,8 +51,9 @@ class Intake {
                    std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs);
 
   /// Reports each program that left, fell silent or is back, for every simulator for which it has
-  /// spoken, and each service, other than its own, that left or fell silent, or, with its last status again, is
-  /// back. Call it after Take(): what a program wrote comes before the report of its end.
+  /// spoken, and each service, other than its own, that left or fell silent, or, with its last
+  /// status again, is back. Call it after Take(): what a program wrote comes before the report of
+  /// its end.
   void Follow(const std::vector<WriterChange>& changes, std::vector<v1::Input>* inputs);
 
  private:

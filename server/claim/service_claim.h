@@ -60,9 +60,9 @@ struct ClaimOptions {
 /// says that the one that serves is gone (HearEnd()). Of several standbys the one does that came in
 /// the lowest term, of these the one with the lowest instance; the others do if it has not within
 /// heard_for_ns. A service that stood still for standstill_ns() may have been replaced meanwhile:
-/// WakeUp() keeps it from publishing anything before it has listened, and it then yields to one that
-/// it hears once. A standby that stood still has heard nothing of the one that serves: WakeUp()
-/// keeps it from taking over before it has listened; after kStaleAfterNs it yields.
+/// WakeUp() keeps it from publishing anything before it has listened, and it then yields to one
+/// that it hears once. A standby that stood still has heard nothing of the one that serves:
+/// WakeUp() keeps it from taking over before it has listened; after kStaleAfterNs it yields.
 ///
 /// Pure bookkeeping: it reads no clock; times are nanoseconds of the monotonic one. One
 /// thread.
@@ -159,8 +159,8 @@ class ServiceClaim {
 /// that one wrote: longer than a message is on its way on any network.
 inline constexpr std::int64_t kContendedForNs = 60'000'000'000;
 
-/// A standby that has heard nothing for so long starts afresh: others may have given it up, and what
-/// ended meanwhile is told to nobody any more.
+/// A standby that has heard nothing for so long starts afresh: others may have given it up, and
+/// what ended meanwhile is told to nobody any more.
 inline constexpr std::int64_t kStaleAfterNs = 5'000'000'000;
 
 /// Services that may have come and gone unheard, and each served a simulator in a term of its own.

@@ -51,8 +51,7 @@ class Daemon::Implementation {
         bus_(bus),
         clock_(clock),
         recorder_(parts.recorder),
-        journal_(config_, parts.journal),
-        open_journal_(std::move(parts.open_journal)),
+        journal_(config_, parts.journal, std::move(parts.open_journal)),
         quarantine_(parts.quarantine),
         state_failure_(parts.state_failure),
         claim_(parts.claim),
@@ -92,6 +91,7 @@ class Daemon::Implementation {
     bus_.Wake();
   }
 
+  const std::string& state_failure() const { return state_failure_; }
   const ServiceClaim& claim() const { return claim_; }
   const EventLog& event_log() const { return publisher_.event_log(); }
 
@@ -231,10 +231,8 @@ class Daemon::Implementation {
   }
 
   void BeginTerm() {
-    if (open_journal_) journal_.Use(std::exchange(open_journal_, nullptr)());
-    // What an earlier configuration left behind means nothing to a wall clock.
-    if (!world_.simulated()) journal_.Clear();
-    KeepState(journal_.SetTerm(claim_.term(), world_.epoch()));
+    journal_.Open();
+    KeepState(journal_.SetTerm(claim_.term(), world_.epoch(), world_.monotonic_ns()));
     spdlog::info("serves world \"{}\" in term {}", config_.world(), claim_.term());
   }
 
@@ -294,7 +292,7 @@ class Daemon::Implementation {
     publisher_.BeginEpoch(world_.epoch());
     schedule_.Hasten();
     if (claim_.phase() == ClaimPhase::kServing) {
-      KeepState(journal_.SetTerm(claim_.term(), world_.epoch()));
+      KeepState(journal_.SetTerm(claim_.term(), world_.epoch(), world_.monotonic_ns()));
     }
   }
 
@@ -390,7 +388,8 @@ class Daemon::Implementation {
     silence_report_.AddExtensions(&extensions);
     operators_.AddExtensions(&extensions);
     shares_.AddExtensions(&extensions);
-    AddText("state_failure", state_failure_, &extensions);
+    AddText("state_failure", state_failure_.empty() ? journal_.awaited() : state_failure_,
+            &extensions);
     AddText("recording_failure", recorder_.failure(), &extensions);
     if (quarantine_ != nullptr) AddText("quarantine", quarantine_->Summary(), &extensions);
     return extensions;
@@ -401,7 +400,6 @@ class Daemon::Implementation {
   Clock& clock_;
   StepRecorder recorder_;
   RosterJournal journal_;
-  std::function<Journal*()> open_journal_;
   Quarantine* const quarantine_;  ///< Null: none.
   std::string state_failure_;     ///< Empty: what must be kept is kept.
   ServiceClaim claim_;
@@ -434,6 +432,8 @@ Daemon::Daemon(const v1::Config& config, Bus& bus, Clock& clock, DaemonParts par
     : implementation_(std::make_unique<Implementation>(config, bus, clock, std::move(parts))) {}
 
 Daemon::~Daemon() = default;
+
+const std::string& Daemon::state_failure() const { return implementation_->state_failure(); }
 
 bool Daemon::Step() { return implementation_->Step(); }
 

@@ -24,8 +24,8 @@ struct DaemonParts {
   std::unique_ptr<ShapeBuilder> shape_builder = nullptr;  ///< Null: shapes are built in the step
                                                           ///< after they have arrived.
   Journal* journal = nullptr;                             ///< Keeps term, roster and grants.
-  /// Opens the journal when this service takes over, if another one has it until then; null: it
-  /// cannot be opened, which was logged.
+  /// Opens the journal when this service takes over, if another one has it until then. Throws
+  /// JournalInUse as long as that one has it, std::runtime_error if it cannot be opened.
   std::function<Journal*()> open_journal = nullptr;
   Quarantine* quarantine = nullptr;  ///< Notes which message is applied, for the next start.
   std::string state_failure = {};    ///< Why there is no journal, if one was wanted.
@@ -66,6 +66,9 @@ class Daemon {
 
   /// Makes Step() return false soon. Any thread.
   void Stop();
+
+  /// Why nothing is kept for the next start, although that is wanted; empty: it is.
+  const std::string& state_failure() const;
 
   /// Its claim to the world.
   const ServiceClaim& claim() const;

@@ -1,11 +1,17 @@
 #include "server/service/roster_journal.h"
 
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <utility>
 #include <vector>
 
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::server {
 namespace {
+
+constexpr std::int64_t kTryAgainAfter = 1'000'000'000;  // [ns]
 
 /// Whether a restarted service must wait for it.
 bool IsInEpoch(const Simulator& simulator) {
@@ -14,10 +20,38 @@ bool IsInEpoch(const Simulator& simulator) {
 
 }  // namespace
 
-RosterJournal::RosterJournal(const v1::Config& config, Journal* journal)
-    : journal_(journal), written_ahead_(config.clock().grant_ahead_max_s()) {}
+RosterJournal::RosterJournal(const v1::Config& config, Journal* journal,
+                             std::function<Journal*()> open)
+    : journal_(journal),
+      open_(std::move(open)),
+      has_roster_(config.clock().kind() != v1::Clock::WALL),
+      written_ahead_(config.clock().grant_ahead_max_s()) {}
+
+void RosterJournal::TryToOpen(std::int64_t monotonic_ns) {
+  if (!opens_ || monotonic_ns < next_try_ns_) return;
+  next_try_ns_ = monotonic_ns + kTryAgainAfter;
+  try {
+    journal_ = open_();
+    awaited_.clear();
+  } catch (const JournalInUse& in_use) {
+    if (awaited_.empty()) spdlog::warn("{}: opened as soon as that one lets go", in_use.what());
+    awaited_ = in_use.what();
+    return;
+  } catch (const std::exception& failure) {
+    failure_ = failure.what();
+  }
+  opens_ = false;
+  WriteTerm();
+}
+
+void RosterJournal::WriteTerm() {
+  if (journal_ == nullptr || term_ == 0) return;
+  if (!has_roster_) journal_->RemoveAll();
+  journal_->SetTerm(term_, epoch_);
+}
 
 bool RosterJournal::Keep(const World& world) {
+  TryToOpen(world.monotonic_ns());
   if (journal_ == nullptr || !world.simulated()) return error().empty();
   std::vector<std::uint64_t> gone;
   for (const auto& [id, kept] : journal_->simulators()) {
@@ -50,15 +84,16 @@ bool RosterJournal::KeepOne(const Simulator& simulator) {
   return journal_->Put(entry);
 }
 
-bool RosterJournal::Clear() { return journal_ == nullptr || journal_->RemoveAll(); }
-
-bool RosterJournal::SetTerm(std::uint32_t term, std::uint32_t epoch) {
-  return journal_ == nullptr || journal_->SetTerm(term, epoch);
+bool RosterJournal::SetTerm(std::uint32_t term, std::uint32_t epoch, std::int64_t monotonic_ns) {
+  term_ = term;
+  epoch_ = epoch;
+  TryToOpen(monotonic_ns);
+  WriteTerm();
+  return error().empty();
 }
 
 const std::string& RosterJournal::error() const {
-  static const std::string none;
-  return journal_ == nullptr ? none : journal_->error();
+  return journal_ == nullptr ? failure_ : journal_->error();
 }
 
 }  // namespace collision::server

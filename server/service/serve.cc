@@ -152,9 +152,8 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
     return Fail(kExitFile, recorder->error() +
                                " (on_recording_failure is END; GO_ON serves without a recording)");
   }
-  const bool ends = config.on_state_failure() == v1::Config::END;
-  if (ends && parts.journal != nullptr && !parts.journal->error().empty()) {
-    return Fail(kExitFile, "state_dir: " + parts.journal->error() + kGoOnInstead);
+  if (config.on_state_failure() == v1::Config::END && !daemon.state_failure().empty()) {
+    return Fail(kExitFile, "state_dir: " + daemon.state_failure() + kGoOnInstead);
   }
   if (starts_afresh) {
     spdlog::warn("{}: starts afresh, to stand by", daemon.claim().why());

@@ -34,10 +34,10 @@ struct ServiceParts {
 };
 
 /// Runs the daemon until SIGTERM or SIGINT, the end of the bus, a batch that cannot be recorded, a
-/// failure (EndOnFailure()), or until another service has the world. Returns the exit code; nullopt:
-/// another service has the world, and this one is to stand by (`claim.stands_by`): call it again
-/// with new parts, a new bus and another instance, so that it knows nothing of its own but what the
-/// world tells. PrepareSignals() was called.
+/// failure (EndOnFailure()), or until another service has the world. Returns the exit code;
+/// nullopt: another service has the world, and this one is to stand by (`claim.stands_by`): call it
+/// again with new parts, a new bus and another instance, so that it knows nothing of its own but
+/// what the world tells. PrepareSignals() was called.
 ///
 /// A step that is not over 0.7 s after the signal is not waited for: what is recorded stays whole,
 /// and the process ends with 0 from another thread, so Serve() does not return.

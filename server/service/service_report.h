@@ -26,8 +26,8 @@ class ServiceReport {
   /// A status of a service, or its end.
   void Hear(const v1::ServiceHeard& heard, std::int64_t now_ns);
 
-  /// This one stands by beside the service whose status that is (StandbyReadiness::Hear()). True: it
-  /// is ready to take over from now on, which is logged.
+  /// This one stands by beside the service whose status that is (StandbyReadiness::Hear()). True:
+  /// it is ready to take over from now on, which is logged.
   bool HearOfWork(const v1::ServiceHeard& heard, std::size_t agents, Instant newest);
 
   /// Writes what is new, and ServiceClaim::Conflicts().

@@ -21,6 +21,7 @@ inline constexpr std::uint32_t kIncarnation = 4711;  ///< Shapes are numbered fr
 struct FakeNetwork {
   std::vector<v1::Input> written;               ///< Everything the World wrote, in order.
   std::deque<v1::Output> arriving;              ///< What the next Receive() hands over.
+  std::vector<v1::Input> heard;                 ///< Likewise, of services.
   std::vector<std::chrono::nanoseconds> waits;  ///< The timeout of every Receive().
   std::size_t flushed = 0;                      ///< How much of `written` has left.
   bool alive = false;
@@ -83,6 +84,7 @@ class FakeTransport : public Transport {
     arrivals->outputs.insert(arrivals->outputs.end(), network_->arriving.begin(),
                              network_->arriving.end());
     network_->arriving.clear();
+    arrivals->inputs = std::exchange(network_->heard, {});
   }
 
   bool service_alive() const override { return network_->alive; }

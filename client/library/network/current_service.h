@@ -20,12 +20,12 @@ namespace collision::client {
 /// what it promised has expired.
 inline constexpr std::chrono::nanoseconds kServiceSilence(wire::kServiceLease);
 
-/// The service in force: of those that speak one that simulators follow, of several the one with the
-/// highest term, of equal terms the one with the lower id. Such a service takes over at once, unless
-/// its term is lower: then when the one in force has been silent for kServiceSilence. So a term that
-/// was only a test, or a forged one, is in force no longer than it is repeated, and conflicts()
-/// tells of it. One that nobody follows, such as a standby that has taken over, waits for the
-/// network to say that the one in force has ended: it may have lost sight of it alone.
+/// The service in force: of those that speak one that simulators follow, of several the one with
+/// the highest term, of equal terms the one with the lower id. Such a service takes over at once,
+/// unless its term is lower: then when the one in force has been silent for kServiceSilence. So a
+/// term that was only a test, or a forged one, is in force no longer than it is repeated, and
+/// conflicts() tells of it. One that nobody follows, such as a standby that has taken over, waits
+/// for the network to say that the one in force has ended: it may have lost sight of it alone.
 ///
 /// It judges each sample by its stamp, and its answers depend on nothing but the calls. One thread.
 class CurrentService {
@@ -37,7 +37,7 @@ class CurrentService {
   bool Accept(const v1::ServiceStamp& stamp, Time now, bool followed = true);
 
   /// The network says that this service has ended, or has not kept its lease; or is back. True: it
-  /// is the one in force that has ended, and others, of which a sample was not accepted, may be now.
+  /// is the one in force that has ended, and others that were not accepted may be now.
   bool Hear(const v1::ServiceHeard& heard);
 
   /// Whether the sample comes from an earlier epoch of the service in force: an event is history,

@@ -98,18 +98,6 @@ std::unique_ptr<Journal> OpenJournal(const v1::Config& config, std::string* fail
   }
 }
 
-/// When a standby takes over: the other service, which had it, has ended. Null: it cannot be
-/// opened, which is logged.
-Journal* OpenJournalLater(const v1::Config& config, std::unique_ptr<Journal>* journal) {
-  try {
-    *journal = std::make_unique<Journal>(config.state_dir(), config.world(), config.domain(),
-                                         config.simulators_max());
-  } catch (const std::runtime_error& error) {
-    spdlog::error("{}; nothing is kept for the next start", error.what());
-  }
-  return journal->get();
-}
-
 dds::SenderLimits SenderLimitsOf(const v1::Config& config) {
   return {.samples_per_second = config.sender_messages_per_second_max(),
           .bytes_per_second = config.sender_bytes_per_second_max(),
@@ -157,7 +145,7 @@ std::optional<int> ServeOnce(const v1::Config& config, const std::string& record
     journal = OpenJournal(config, &state_failure);
   } catch (const JournalInUse& error) {
     if (!stands_by) return Fail(kExitOccupied, error.what());
-    open_journal = [&] { return OpenJournalLater(config, &journal); };
+    open_journal = [&] { return (journal = ReadJournal(config)).get(); };
   } catch (const std::runtime_error& error) {
     return Fail(kExitFile, std::string("state_dir: ") + error.what());
   }

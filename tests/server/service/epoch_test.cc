@@ -232,5 +232,33 @@ TEST(EpochOfAStandby, IsThatOfTheServiceBesideIt) {
   EXPECT_EQ(daemon.status().stamp().epoch(), 4u) << "its own time has begun";
 }
 
+// What a standby says whose own cable was out would be wrong.
+TEST(ATakeOver, IsSilentButForItsStatusUntilASimulatorFollowsIt) {
+  ScriptedDaemon daemon(Config(), {.claim = {.instance = 2, .stands_by = true}});
+  v1::Input heard;
+  heard.mutable_service_heard()->set_service_id(1);
+  heard.mutable_service_heard()->set_term(1);
+  heard.mutable_service_heard()->set_phase(v1::PHASE_SERVING);
+  daemon.Step({heard});
+  const Voyage run;
+  daemon.Step(run.Told(0), 0.01);
+  heard.mutable_service_heard()->set_ended(true);
+  daemon.Step({heard}, 0.01);
+  EXPECT_EQ(daemon.status().phase(), v1::PHASE_SERVING);
+  EXPECT_EQ(daemon.status().followers(), 0u);
+  const auto says_more_than_its_status = [&] {
+    return std::any_of(daemon.bus().outputs.begin(), daemon.bus().outputs.end(),
+                       [](const v1::Output& output) { return !output.has_service_status(); });
+  };
+  EXPECT_FALSE(says_more_than_its_status());
+  std::vector<v1::Input> told = run.Told(0);
+  for (v1::Input& input : told) {
+    if (input.has_simulator_clock()) input.mutable_simulator_clock()->set_service_id(2);
+  }
+  daemon.Step(told, 0.01);
+  EXPECT_TRUE(says_more_than_its_status());
+  EXPECT_EQ(daemon.status().followers(), 1u);
+}
+
 }  // namespace
 }  // namespace collision::server

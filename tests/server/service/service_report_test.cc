@@ -82,9 +82,16 @@ TEST(ServiceReport, ATakeOverSaysFromWhomAndHowLongThatWasSilent) {
   report.Hear(Ended(0xab), 6 * kSecond);
   log.Take();
   report.LogTakeOver(7 * kSecond);
-  EXPECT_EQ(log.Take(), "info takes over from " + std::string(kName) +
-                            ": it has ended, or was not heard for its lease; its last status came "
-                            "2.00 s ago\n");
+  const std::string why = "info takes over from " + std::string(kName) +
+                          ": it has ended, or was not heard for its lease; its last status came "
+                          "2.00 s ago\n";
+  EXPECT_EQ(log.Take(), why +
+                            "warning was not ready to take over: what the other one had not told "
+                            "may be lost\n");
+  report.HearOfWork(Heard(0xab, v1::PHASE_SERVING), 0, Instant());
+  log.Take();
+  report.LogTakeOver(7 * kSecond);
+  EXPECT_EQ(log.Take(), why);
 }
 
 TEST(ServiceReport, OneThatIsConfiguredOtherwiseIsNamedOnce) {
@@ -109,12 +116,35 @@ TEST(ServiceReport, OneThatIsConfiguredOtherwiseIsNamedOnce) {
 TEST(ServiceReport, TheStatusSaysWhereItRunsAndHowLongItsLeaseIs) {
   v1::Config config;
   config.set_lease_s(0.25);
-  const ServiceReport report(CompleteConfig(config), 1, "pid 7 on here");
+  ServiceReport report(CompleteConfig(config), 1, "pid 7 on here");
   std::vector<v1::KeyValue> extensions;
-  report.AddExtensions(&extensions);
+  report.AddExtensions(false, &extensions);
   ASSERT_EQ(extensions.size(), 2u);
   EXPECT_EQ(extensions[0].key() + " " + extensions[0].value(), "process pid 7 on here");
   EXPECT_EQ(extensions[1].key() + " " + extensions[1].value(), "lease_s 0.25");
+}
+
+// A standby that joins has the newest state of each agent, and nothing of what came before.
+TEST(ServiceReport, AStandbyIsReadyOnceTheOtherOneHasToldAllThatIsOlderThanWhatItKnows) {
+  ServiceReport report(CompleteConfig({}), 1, "");
+  v1::ServiceHeard heard;
+  heard.set_service_id(2);
+  heard.set_agents(3);
+  const auto hear = [&](std::int64_t now_ns, std::size_t agents, std::int64_t newest_ns) {
+    heard.set_now_ns(now_ns);
+    return report.HearOfWork(heard, agents, Instant::FromNanoseconds(newest_ns));
+  };
+  const auto standby = [&] {
+    std::vector<v1::KeyValue> extensions;
+    report.AddExtensions(true, &extensions);
+    return extensions.back().value();
+  };
+  EXPECT_FALSE(hear(9 * kSecond, 2, kSecond)) << "an agent is missing";
+  EXPECT_FALSE(hear(kSecond - 1, 3, kSecond)) << "what is older than 1 s only that one may know";
+  EXPECT_EQ(standby(), "not ready yet");
+  EXPECT_TRUE(hear(kSecond, 3, 5 * kSecond)) << "what came since both have";
+  EXPECT_EQ(standby(), "ready");
+  EXPECT_FALSE(hear(2 * kSecond, 1, 5 * kSecond)) << "it is said once";
 }
 
 }  // namespace

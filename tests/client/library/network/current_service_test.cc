@@ -69,6 +69,45 @@ TEST(CurrentService, ATermThatIsRepeatedStays) {
   EXPECT_EQ(service.conflicts(), 120u);
 }
 
+v1::ServiceHeard Heard(std::uint64_t id, bool ended) {
+  v1::ServiceHeard heard;
+  heard.set_service_id(id);
+  heard.set_ended(ended);
+  return heard;
+}
+
+TEST(CurrentService, AStandbyThatNobodyFollowsWaitsForTheEndOfTheOneInForce) {
+  CurrentService service;
+  EXPECT_TRUE(service.Accept(Stamp(5, 3), At(0)));
+  EXPECT_FALSE(service.Accept(Stamp(9, 4), At(1), false)) << "its own cable may have been out";
+  EXPECT_FALSE(service.Hear(Heard(7, true)));
+  EXPECT_FALSE(service.Accept(Stamp(9, 4), At(1), false));
+  EXPECT_TRUE(service.Hear(Heard(5, true)));
+  EXPECT_TRUE(service.Accept(Stamp(9, 4), At(2), false));
+  EXPECT_FALSE(service.Accept(Stamp(5, 3), At(2))) << "what it wrote before its end, late";
+  EXPECT_TRUE(service.Accept(Stamp(9, 4), At(3), true));
+  EXPECT_FALSE(service.Hear(Heard(5, false)));
+  EXPECT_FALSE(service.Accept(Stamp(5, 3), At(4))) << "it is back, out of term";
+  EXPECT_EQ(service.id(), 9u);
+}
+
+TEST(CurrentService, OneThatSimulatorsFollowGoesBeforeAHigherTermThatNobodyFollows) {
+  CurrentService service;
+  EXPECT_TRUE(service.Accept(Stamp(9, 4), At(0), false));
+  EXPECT_TRUE(service.Accept(Stamp(5, 3), At(1), true));
+  EXPECT_FALSE(service.Accept(Stamp(9, 4), At(2), false));
+  EXPECT_TRUE(service.Accept(Stamp(9, 4), At(2), true))
+      << "of two that are followed the term counts";
+}
+
+TEST(CurrentService, AnyNumberOfEndsIsForgotten) {
+  CurrentService service;
+  service.Accept(Stamp(1'000'000, 3), At(0));
+  for (std::uint64_t id = 1; id < 10'000; ++id) EXPECT_FALSE(service.Hear(Heard(id, true)));
+  EXPECT_TRUE(service.Hear(Heard(1'000'000, true)));
+  EXPECT_TRUE(service.Accept(Stamp(2'000'000, 4), At(0), false));
+}
+
 TEST(CurrentService, AnEarlierEpochOfTheSameServiceIsOver) {
   CurrentService service;
   const auto accept = [&](std::uint64_t id, std::uint32_t term, std::uint32_t epoch) {

@@ -85,12 +85,19 @@ class TimedTransport : public FakeTransport {
   const std::chrono::nanoseconds& now_;
 };
 
-void Say(std::uint64_t service, FakeNetwork* network) {
+void Say(std::uint64_t service, FakeNetwork* network, bool followed = true) {
   v1::ServiceStatus& status = *network->arriving.emplace_back().mutable_service_status();
   status.set_phase(v1::PHASE_SERVING);
   status.mutable_stamp()->set_service_id(service);
   status.mutable_stamp()->set_term(1);
   status.mutable_stamp()->set_sequence(100);
+  status.set_followers(followed ? 1 : 0);
+}
+
+void End(std::uint64_t service, FakeNetwork* network) {
+  v1::ServiceHeard& heard = *network->heard.emplace_back().mutable_service_heard();
+  heard.set_service_id(service);
+  heard.set_ended(true);
 }
 
 // The service is started again at once, in the same term, with a higher id: the one before it is in
@@ -131,6 +138,26 @@ TEST(OtherServices, AMonitorHearsTheContactsOfTheNextService) {
   Say(2, network.get());
   monitor.Poll(0ns);
   EXPECT_EQ(events, 1u);
+}
+
+// The standby has taken over, and says nothing but its status until a simulator follows it.
+TEST(OtherServices, AStandbyIsFollowedAsSoonAsTheServiceBeforeItHasEnded) {
+  const auto network = std::make_shared<FakeNetwork>();
+  std::chrono::nanoseconds now = 100s;
+  World world = World::Connect({.simulator = kSimulator, .run = kRun, .incarnation = kIncarnation},
+                               std::make_unique<TimedTransport>(network, &now));
+  Say(1, network.get());
+  EXPECT_EQ(world.AdvanceTo(0, 0ns), Advance::kReached);
+  world.AdvanceTo(1, 0ns);
+  ASSERT_FALSE(network->Clocks().empty());
+  Say(2, network.get(), false);
+  network->arriving.back().mutable_service_status()->mutable_stamp()->set_term(2);
+  world.Poll();
+  EXPECT_EQ(network->Clocks().back().service_id(), 1u);
+  End(1, network.get());
+  world.Poll();
+  EXPECT_EQ(network->Clocks().back().service_id(), 2u) << "at once: its status has come before";
+  EXPECT_EQ(network->Clocks().back().service_term(), 2u);
 }
 
 }  // namespace
