@@ -143,7 +143,7 @@ std::size_t Intake::Take(dds_entity_t reader, const TopicRow& row, std::size_t l
         FromWire(row.id, loan.sample(i), &outputs->emplace_back());
       }
       if (row.id == TopicId::kServiceStatus) {
-        FollowService(loan.sample(i), loan.info(i), inputs);
+        FollowService(loan.sample(i), loan.info(i), outputs != nullptr, inputs);
       }
     }
   }
@@ -175,11 +175,13 @@ void Intake::ReceiveData(TopicId topic, const void* sample, std::uint64_t sender
   }
 }
 
-/// `sample` is its status.
-void Intake::FollowService(const void* sample, const dds_sample_info_t& info,
+/// `sample` is its status. `is_output`: it is handed on as such, so that an end that was told before
+/// is to be taken back.
+void Intake::FollowService(const void* sample, const dds_sample_info_t& info, bool is_output,
                            std::vector<v1::Input>* inputs) {
   v1::Input heard;
   FromWire(TopicId::kServiceStatus, sample, &heard);
+  if (ended_services_.erase(info.publication_handle) > 0 && is_output) inputs->push_back(heard);
   services_[info.publication_handle] = heard.service_heard();
   // A status may outlast its writer in the reader: its end comes after it.
   if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) EndService(info.publication_handle, inputs);
@@ -198,7 +200,8 @@ void Intake::Follow(const std::vector<WriterChange>& changes, std::vector<v1::In
       if (!change.alive) EndService(change.writer, inputs);
       continue;
     }
-    if (auto back = ended_services_.extract(change.writer); back && change.alive) {
+    if (!change.alive && ended_services_.contains(change.writer)) continue;
+    if (auto back = ended_services_.extract(change.writer)) {
       *inputs->emplace_back().mutable_service_heard() = back.mapped();
       services_.insert(std::move(back));
       continue;

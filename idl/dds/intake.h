@@ -60,7 +60,7 @@ class Intake {
   void Receive(const ArrivedSample& arrived, std::vector<v1::Input>* inputs);
   void ReceiveData(TopicId topic, const void* sample, std::uint64_t sender,
                    std::vector<v1::Input>* inputs);
-  void FollowService(const void* sample, const dds_sample_info_t& info,
+  void FollowService(const void* sample, const dds_sample_info_t& info, bool is_output,
                      std::vector<v1::Input>* inputs);
   void EndService(dds_instance_handle_t writer, std::vector<v1::Input>* inputs);
   bool Wanted(const TopicRow& row, const void* sample) const;

@@ -159,9 +159,9 @@ class ServiceClaim {
 /// that one wrote: longer than a message is on its way on any network.
 inline constexpr std::int64_t kContendedForNs = 60'000'000'000;
 
-/// A standby that has heard nothing for so long starts afresh: others may have given it up, and
-/// what ended meanwhile is told to nobody any more.
-inline constexpr std::int64_t kStaleAfterNs = 5'000'000'000;
+/// A standby that has heard nothing for so long starts afresh: others may have given it up, as DDS
+/// does by default, and what ended meanwhile is told to nobody any more.
+inline constexpr std::int64_t kStaleAfterNs = 10'000'000'000;
 
 /// Services that may have come and gone unheard, and each served a simulator in a term of its own.
 inline constexpr std::uint32_t kTermLeapMax = 4096;

@@ -156,10 +156,12 @@ void Intake::TakeClock(const v1::Input& input) {
   Simulator* simulator = Claimed(input, At(wire), &wire.simulator_name());
   if (simulator == nullptr) return;
   if (input.quarantined()) return rejections_.Add(Quarantined(At(wire)));
+  simulator->SetHears(Names(wire));
   sender_clocks_.Take(simulator, wire);
   SimulatorTime& time = simulator->time();
   const bool tells_none = wire.clock_ns() == Instant::Always().nanoseconds();
   if (tells_none && wire.lock_step() == world_.simulated()) {
+    NoteFollower(wire);
     if (world_.simulated()) {
       world_.Join(simulator, wire.next_ns() == Instant::Never().nanoseconds());
     } else {
@@ -194,10 +196,16 @@ void Intake::TakeClock(const v1::Input& input) {
   simulator->refusals().Accept(v1::TOPIC_SIMULATOR_CLOCK, 0);
 }
 
+/// Whether its sender has heard this service, or none.
+bool Intake::Names(const v1::SimulatorClock& clock) const {
+  return clock.service_id() == instance_ || clock.service_id() == 0;
+}
+
 void Intake::NoteFollower(const v1::SimulatorClock& clock) {
   Simulator* simulator = world_.Find(clock.simulator_id());
   if (simulator == nullptr || simulator->run() != clock.run()) return;
-  if (clock.service_id() == instance_ || clock.service_id() == 0) simulator->SetFollows(true);
+  simulator->SetHears(Names(clock));
+  if (simulator->hears()) simulator->SetFollows(true);
 }
 
 bool Intake::MayRemove(const Simulator& simulator, const v1::Input& input, bool is_owners,

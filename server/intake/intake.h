@@ -84,6 +84,7 @@ class Intake {
   std::optional<std::int64_t> NextDue() const;
 
  private:
+  bool Names(const v1::SimulatorClock& clock) const;
   /// The simulator that the input speaks for, its former run ended where a new one begins; null:
   /// refused, or it waits for the name of its sender. `name`: as in World::ClaimFor().
   Simulator* Claimed(const v1::Input& input, Refusal where, const std::string* name);

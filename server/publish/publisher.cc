@@ -120,14 +120,18 @@ void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& even
 }
 
 bool Publisher::BeginToSpeak(const World& world) {
-  if (!is_unheard_ || world.followers() == 0) return false;
+  if (!is_unheard_ || !is_named_) return false;
   is_unheard_ = false;
   PublishInherited(world);
   return true;
 }
 
-void Publisher::Hear(const v1::CollisionEvent& event) {
-  if (!speaks()) inherited_.Hear(event);
+void Publisher::Hear(const v1::Input& input) {
+  if (speaks()) return;
+  if (input.has_event_heard()) inherited_.Hear(input.event_heard());
+  if (!is_unheard_ || !input.has_simulator_clock()) return;
+  const std::uint64_t named = input.simulator_clock().service_id();
+  is_named_ = is_named_ || named == claim_.instance() || named == 0;
 }
 
 void Publisher::PublishInherited(const World& world) {

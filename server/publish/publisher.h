@@ -40,18 +40,20 @@ class Publisher {
   /// all agents are written. While it does not speak it takes note of them.
   void PublishEvents(const std::vector<detection::CollisionEvent>& events, const World& world);
 
-  /// While it does not speak: what another service publishes.
-  void Hear(const v1::CollisionEvent& event);
+  /// Every input, before it is applied. While it does not speak it takes note of the events of
+  /// another service, and of whether a clock, which may count or not, tells that its simulator has
+  /// heard this service.
+  void Hear(const v1::Input& input);
 
   /// Whether this service publishes anything but its status: it serves, and if it has taken over, a
-  /// simulator follows it. A standby whose cable is out takes over, too; nobody follows it, and its
+  /// simulator has heard so. A standby whose cable is out takes over, too; nobody follows it, and its
   /// word would be no news to others but wrong.
   bool speaks() const { return claim_.phase() == ClaimPhase::kServing && !is_unheard_; }
 
   /// It has taken over.
   void TakeOver() { is_unheard_ = true; }
 
-  /// Begins to speak if it has taken over and a simulator follows it: publishes the contacts that
+  /// Begins to speak if it has taken over and a simulator has heard it: publishes the contacts that
   /// the other service has not, and what stands told of pairs whose event is not over; readers know
   /// which of these they have heard. True: it does. Call it before the events of a step.
   bool BeginToSpeak(const World& world);
@@ -96,7 +98,8 @@ class Publisher {
   EventLog event_log_;
   EventFilter filter_;
   InheritedEvents inherited_;
-  bool is_unheard_ = false;  ///< It has taken over, and nobody has followed it yet.
+  bool is_unheard_ = false;  ///< It has taken over, and does not speak yet.
+  bool is_named_ = false;    ///< Since then: by a simulator.
   EventCounters events_;
   const std::int64_t earliest_period_ns_;
   std::uint32_t earliest_readers_ = 0;

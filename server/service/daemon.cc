@@ -126,7 +126,7 @@ class Daemon::Implementation {
     if (publisher_.speaks()) {
       if (!KeepState(journal_.Keep(world_))) return false;
       PublishAnswers();
-    } else if (claim_.phase() != ClaimPhase::kServing) {
+    } else {
       static_cast<void>(rejections_.Take());
     }
     PublishStatus();
@@ -180,7 +180,7 @@ class Daemon::Implementation {
     const std::int64_t now_ns = world_.monotonic_ns();
     for (const v1::Input& input : inputs) {
       if (input.has_simulator_clock()) claim_.HearOfTerm(input.simulator_clock().service_term());
-      if (input.has_event_heard()) publisher_.Hear(input.event_heard());
+      publisher_.Hear(input);
       if (input.has_service_heard()) HearService(input.service_heard());
     }
     const ClaimPhase before = claim_.phase();
@@ -198,7 +198,9 @@ class Daemon::Implementation {
     services_.Hear(heard, world_.monotonic_ns());
     if (heard.ended()) return claim_.HearEnd(heard.service_id());
     claim_.Hear(HeardOf(heard), world_.monotonic_ns());
-    if (heard.phase() != v1::PHASE_SERVING || claim_.phase() == ClaimPhase::kServing) return;
+    const bool is_lonely = heard.agents() > 0 && !heard.followed();  // its own cable may be out
+    if (claim_.phase() == ClaimPhase::kServing || heard.phase() != v1::PHASE_SERVING || is_lonely)
+      return;
     heard_granted_ = Instant::FromNanoseconds(heard.granted_until_ns());
     if (!advanced_to_ && world_.FollowEpoch(heard.epoch())) publisher_.BeginEpoch(world_.epoch());
     if (claim_.phase() != ClaimPhase::kStandby) return;
@@ -334,7 +336,9 @@ class Daemon::Implementation {
     if (world_.simulated() && !inputs && world_.now() == advanced_to_) return;
     advanced_to_ = world_.now();
     detector_.Advance(world_.now(), [this] {
-      if (progress_ && progress_()) SendStatus();
+      if (!progress_ || !progress_()) return;
+      SendStatus();
+      bus_.Flush();
     });
     if (shares_.Take(detector_.owner_work(), world_)) schedule_.Hasten();
     shares_.Write(world_.monotonic_ns());
@@ -388,8 +392,7 @@ class Daemon::Implementation {
     silence_report_.AddExtensions(&extensions);
     operators_.AddExtensions(&extensions);
     shares_.AddExtensions(&extensions);
-    AddText("state_failure", state_failure_.empty() ? journal_.awaited() : state_failure_,
-            &extensions);
+    AddText("state_failure", state_failure_ + journal_.awaited(), &extensions);
     AddText("recording_failure", recorder_.failure(), &extensions);
     if (quarantine_ != nullptr) AddText("quarantine", quarantine_->Summary(), &extensions);
     return extensions;

@@ -82,6 +82,11 @@ class Simulator {
   bool follows() const { return follows_; }
   void SetFollows(bool follows) { follows_ = follows; }
 
+  /// Its newest clock names this service, or none. Whether that clock was refused makes no
+  /// difference: it is told so by the service that it has heard.
+  bool hears() const { return hears_; }
+  void SetHears(bool hears) { hears_ = hears; }
+
   SenderClock& sender_clock() { return sender_clock_; }
   const SenderClock& sender_clock() const { return sender_clock_; }
   SimulatorTime& time() { return time_; }
@@ -117,6 +122,7 @@ class Simulator {
   std::int64_t released_since_ns_ = 0;
   std::uint32_t incarnation_ = 0;
   bool follows_ = true;
+  bool hears_ = false;
   SenderClock sender_clock_;
   SimulatorTime time_;
   AgentTable agents_;

@@ -244,6 +244,8 @@ void World::RaiseInheritedGrant() {
 }
 
 void World::StandBy(Instant granted) {
+  // Whoever is missing since its own last run, the other service waits for, or does not.
+  if (!stands_by_) silence_.roster().GiveUpAll();
   stands_by_ = true;
   HearGranted(granted);
 }
@@ -256,6 +258,7 @@ void World::TakeOver() {
   stands_by_ = false;
   for (auto& [id, simulator] : simulators_) {
     simulator.SetFollows(false);
+    simulator.SetHears(false);
     simulator.agents().clearances().MarkAllChanged();
   }
   if (!simulated_ || NewestClock() == Instant::Always()) return;
@@ -276,7 +279,7 @@ std::size_t World::followers() const {
   if (stands_by_) return 0;
   return static_cast<std::size_t>(
       std::count_if(simulators_.begin(), simulators_.end(), [](const auto& one) {
-        return one.second.alive() && one.second.follows() && !one.second.has_left();
+        return one.second.alive() && one.second.hears() && !one.second.has_left();
       }));
 }
 

@@ -6,9 +6,9 @@
 namespace collision::client {
 
 bool CurrentService::GoesFirst(const v1::ServiceStamp& stamp, bool followed) const {
+  if (ended_.contains(stamp.service_id())) return false;
   const bool own = followed_ && !ended_.contains(id_);
-  const bool others = followed && !ended_.contains(stamp.service_id());
-  if (own != others) return others;
+  if (own != followed) return followed;
   return stamp.term() != term_ ? stamp.term() > term_ : stamp.service_id() < id_;
 }
 
@@ -24,7 +24,7 @@ bool CurrentService::Hear(const v1::ServiceHeard& heard) {
 
 bool CurrentService::Accept(const v1::ServiceStamp& stamp, Time now, bool followed) {
   if (stamp.service_id() != id_) {
-    const bool silent = now - heard_ >= kServiceSilence;
+    const bool silent = now - heard_ >= (followed ? kServiceSilence : kServiceLoss);
     if (id_ != 0 && !GoesFirst(stamp, followed) && !silent) {
       ++conflicts_;
       return false;
@@ -112,9 +112,10 @@ std::vector<v1::Output> OtherServices::Take(std::uint64_t service_id, Time now) 
   return outputs;
 }
 
-std::vector<v1::Output> OtherServices::Statuses() const {
+std::vector<v1::Output> OtherServices::Statuses(Time now) const {
   std::vector<v1::Output> statuses;
   for (const auto& [id, said] : services_) {
+    if (now - said.heard >= kForgottenAfter) continue;
     const auto status = said.newest.find({v1::Output::kServiceStatus, {0, 0}});
     if (status != said.newest.end()) statuses.push_back(status->second);
   }

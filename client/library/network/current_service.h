@@ -20,6 +20,10 @@ namespace collision::client {
 /// what it promised has expired.
 inline constexpr std::chrono::nanoseconds kServiceSilence(wire::kServiceLease);
 
+/// As long as this one that nobody follows waits, although the network does not say that the one in
+/// force has ended: longer than the period of any status.
+inline constexpr std::chrono::nanoseconds kServiceLoss = 6 * kServiceSilence;
+
 /// The service in force: of those that speak one that simulators follow, of several the one with
 /// the highest term, of equal terms the one with the lower id. Such a service takes over at once,
 /// unless its term is lower: then when the one in force has been silent for kServiceSilence. So a
@@ -101,8 +105,8 @@ class OtherServices {
   /// All that is kept of this service, in the order of its publication, and no longer kept.
   std::vector<v1::Output> Take(std::uint64_t service_id, Time now);
 
-  /// The newest status of each.
-  std::vector<v1::Output> Statuses() const;
+  /// The newest status of each that was heard lately.
+  std::vector<v1::Output> Statuses(Time now) const;
 
   /// One of them was heard lately: samples of services are of the same keys, so those of the one in
   /// force may be overwritten unread.

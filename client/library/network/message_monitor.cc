@@ -62,7 +62,7 @@ void MessageMonitor::HandOn(const v1::Input& input) {
       return Call(callbacks_.clock, input.simulator_clock());
     case v1::Input::kServiceHeard:
       if (!service_.Hear(input.service_heard())) return;
-      for (const v1::Output& status : others_.Statuses()) HandOn(status);
+      for (const v1::Output& status : others_.Statuses(now_)) HandOn(status);
       return;
     default:
       return;

@@ -58,7 +58,7 @@ bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   // The end of a service comes after all that it wrote.
   for (const v1::Input& input : arrivals.inputs) {
     if (!input.has_service_heard() || !service_.Hear(input.service_heard())) continue;
-    for (const v1::Output& status : others_.Statuses()) Handle(status, now);
+    for (const v1::Output& status : others_.Statuses(now)) Handle(status, now);
   }
   const std::uint64_t forecast = lock_step_ ? forecasts_.newest() : ClearanceGate::kAllForecasts;
   const std::vector<v1::Clearance> passed = gate_.Take(&contacts_, forecast, now);

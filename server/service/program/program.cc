@@ -125,7 +125,8 @@ std::uint64_t DrawInstance() {
   return std::max<std::uint64_t>(high << 32 | source(), 1);
 }
 
-std::optional<int> ServeOnce(const v1::Config& config, const std::string& record_file) {
+/// `again`: it has left the world to another service, and is to stand by for that one.
+std::optional<int> ServeOnce(const v1::Config& config, const std::string& record_file, bool again) {
   std::shared_ptr<TreeCache> cache;
   try {
     cache = MakeTreeCache(config);
@@ -141,14 +142,17 @@ std::optional<int> ServeOnce(const v1::Config& config, const std::string& record
   std::string state_failure;
   std::function<Journal*()> open_journal;
   const bool stands_by = config.on_occupied() == v1::Config::STAND_BY;
+  bool opens_later = again && !config.state_dir().empty();
   try {
-    journal = OpenJournal(config, &state_failure);
+    // The other service may share the folder, and needs the journal now.
+    if (!opens_later) journal = OpenJournal(config, &state_failure);
   } catch (const JournalInUse& error) {
     if (!stands_by) return Fail(kExitOccupied, error.what());
-    open_journal = [&] { return (journal = ReadJournal(config)).get(); };
+    opens_later = true;
   } catch (const std::runtime_error& error) {
     return Fail(kExitFile, std::string("state_dir: ") + error.what());
   }
+  if (opens_later) open_journal = [&] { return (journal = ReadJournal(config)).get(); };
   const std::unique_ptr<Quarantine> quarantine = OpenQuarantine(config, journal.get());
   ClaimOptions claim = {.instance = DrawInstance(),
                         .term_before = journal ? journal->term() : 0,
@@ -188,8 +192,8 @@ std::optional<int> ServeOnce(const v1::Config& config, const std::string& record
 
 int Serve(const v1::Config& config, const std::string& record_file) {
   PrepareSignals();
-  for (;;) {
-    if (const std::optional<int> code = ServeOnce(config, record_file)) return *code;
+  for (bool again = false;; again = true) {
+    if (const std::optional<int> code = ServeOnce(config, record_file, again)) return *code;
   }
 }
 
