@@ -175,8 +175,8 @@ void Intake::ReceiveData(TopicId topic, const void* sample, std::uint64_t sender
   }
 }
 
-/// `sample` is its status. `is_output`: it is handed on as such, so that an end that was told before
-/// is to be taken back.
+/// `sample` is its status. `is_output`: it is handed on as such, so that an end that was told
+/// before is to be taken back.
 void Intake::FollowService(const void* sample, const dds_sample_info_t& info, bool is_output,
                            std::vector<v1::Input>* inputs) {
   v1::Input heard;

@@ -45,8 +45,8 @@ class Publisher {
   /// heard this service.
   void Hear(const v1::Input& input);
 
-  /// Whether this service publishes anything but its status: it serves, and if it has taken over, a
-  /// simulator has heard so. A standby whose cable is out takes over, too; nobody follows it, and its
+  /// Whether this service publishes anything but its status: it serves and, if it has taken over, a
+  /// simulator has heard so. A standby whose cable is out takes over, too; nobody hears it, and its
   /// word would be no news to others but wrong.
   bool speaks() const { return claim_.phase() == ClaimPhase::kServing && !is_unheard_; }
 

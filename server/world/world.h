@@ -182,8 +182,8 @@ class World {
   /// that is at most `grant_ahead_max_s` beyond the clocks, and promises count from there.
   void TakeOver();
 
-  /// Simulators that are there and whose newest clock names this service, or none; 0 while it stands
-  /// by.
+  /// Simulators that are there and whose newest clock names this service, or none; 0 while it
+  /// stands by.
   std::size_t followers() const;
 
   /// The latest time of which this service knows, as it stands by.
