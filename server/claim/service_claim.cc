@@ -77,10 +77,10 @@ bool ServiceClaim::HasStandby() const {
 }
 
 std::optional<std::int64_t> ServiceClaim::standstill_ns() const {
-  if (phase_ == ClaimPhase::kStandby) return options_.waking_ns / 2;
-  if (phase_ != ClaimPhase::kServing) return std::nullopt;
-  if (options_.stands_by || HasStandby()) return options_.waking_ns / 2;
-  return options_.wait_ns > 0 ? std::optional(options_.wait_ns) : std::nullopt;
+  const bool is_replaceable =
+      phase_ == ClaimPhase::kServing && (options_.stands_by || HasStandby());
+  if (!is_replaceable && phase_ != ClaimPhase::kStandby) return std::nullopt;
+  return options_.waking_ns / 2;
 }
 
 void ServiceClaim::WakeUp(std::int64_t gap_ns, std::int64_t now_ns) {

@@ -80,8 +80,8 @@ class ServiceClaim {
   /// This process has stood still for so long. Shorter than standstill_ns() changes nothing.
   void WakeUp(std::int64_t gap_ns, std::int64_t now_ns);
 
-  /// What makes a difference: half a lease where a standby may take over, else the time in which a
-  /// service that starts claims a world that it finds empty; nullopt: nothing does.
+  /// What makes a difference: half a lease, where a standby may take over; nullopt: nothing does. A
+  /// service beside which none is meant to run would only speak later.
   std::optional<std::int64_t> standstill_ns() const;
 
   /// What it publishes after so long a standstill within a step is to be held back; 0: nothing is.

@@ -42,7 +42,7 @@ class StandbyTest : public testing::Test {
   void ExpectOneContact() {
     EXPECT_EQ(left_->WaitForExit(), 0) << left_->err();
     EXPECT_EQ(right_->WaitForExit(), 0) << right_->err();
-    EXPECT_TRUE(monitor_->WaitForOutput("ended")) << monitor_->out();
+    EXPECT_TRUE(monitor_->WaitForOutput("ended")) << monitor_->out() << second_->err();
     EXPECT_EQ(Count(monitor_->out(), "confirmed"), 1u) << monitor_->out();
     EXPECT_EQ(Count(monitor_->out(), "ended"), 1u) << monitor_->out();
   }

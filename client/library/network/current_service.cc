@@ -31,12 +31,13 @@ bool CurrentService::Accept(const v1::ServiceStamp& stamp, Time now, bool follow
     }
     if (id_ != 0) ++changes_;
     id_ = stamp.service_id();
+    followed_ = false;
   } else if (IsPast(stamp)) {
     return false;
   }
   term_ = stamp.term();
   epoch_ = stamp.epoch();
-  followed_ = followed;
+  followed_ = followed_ || followed;
   heard_ = now;
   return true;
 }

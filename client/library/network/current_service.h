@@ -75,7 +75,7 @@ class CurrentService {
   std::uint64_t id_ = 0;
   std::uint32_t term_ = 0;
   std::uint32_t epoch_ = 0;
-  bool followed_ = false;  ///< As its newest sample says.
+  bool followed_ = false;  ///< As a sample has said; samples of different topics overtake.
   std::set<std::uint64_t> ended_;
   Time heard_{};
   std::uint64_t changes_ = 0;
