@@ -96,6 +96,11 @@ void Evidence::Sort(const v1::CollisionEvent& event) {
     return std::pair(of.stamp().term(), of.revision());
   };
   if (!history.revisions.empty() && number(event) <= number(history.last())) return;
+  // A service that takes over may forecast the pair again under the number of what was dismissed.
+  if (history.closed && !IsFinal(event.status())) {
+    history.announced = moment;
+    history.closed.reset();
+  }
   const bool confirmed = IsConfirmed(event);
   if (confirmed && !history.confirmed) history.confirmed = moment;
   if (IsFinal(event.status()) && !history.closed) history.closed = moment;

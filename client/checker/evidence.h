@@ -52,9 +52,9 @@ bool IsConfirmed(const v1::CollisionEvent& event);
 struct EventHistory {
   std::size_t a = 0;  ///< Indices of the motions, a < b.
   std::size_t b = 0;
-  Moment announced;                           ///< The first revision.
-  std::optional<Moment> confirmed;            ///< The first that was confirmed.
-  std::optional<Moment> closed;               ///< The first that was final.
+  Moment announced;                 ///< The first revision, or the first after `closed` was void.
+  std::optional<Moment> confirmed;  ///< The first that was confirmed.
+  std::optional<Moment> closed;     ///< The first that was final since.
   std::vector<v1::CollisionEvent> revisions;  ///< As received; the newest last.
 
   const v1::CollisionEvent& last() const { return revisions.back(); }
