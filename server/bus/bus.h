@@ -54,7 +54,7 @@ class Bus {
   /// status.
   virtual std::vector<std::string> flooding() const { return {}; }
 
-  /// Who reads the earliest intersection, which is computed for them alone.
+  /// Who read the earliest intersection, which is computed for them alone, when Receive() returned.
   virtual std::uint32_t earliest_readers() const { return 1; }
 
   /// What the network did not deliver or accept, for the status: Counters of collision.idl, each

@@ -36,6 +36,7 @@ DdsBus::DdsBus(const std::string& world, std::uint32_t domain, std::chrono::nano
 bool DdsBus::Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                      std::vector<v1::Input>* inputs) {
   session_.Receive(timeout, limit, inputs, nullptr);
+  earliest_readers_ = session_.earliest_readers();
   // What has been freed stays with the allocator otherwise, for good.
   if (session_.TakeRelief()) malloc_trim(0);
   ran_ = std::chrono::steady_clock::now();
@@ -111,8 +112,6 @@ std::string DdsBus::SimulatorIn(const std::string& partition) const {
   const bool in_world = partition.starts_with(world_ + ".");
   return "simulator \"" + partition.substr(in_world ? world_.size() + 1 : 0) + "\"";
 }
-
-std::uint32_t DdsBus::earliest_readers() const { return session_.earliest_readers(); }
 
 std::vector<v1::Counter> DdsBus::network_counters() const {
   const DdsCounters counted = counters();

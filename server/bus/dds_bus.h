@@ -43,7 +43,7 @@ class DdsBus final : public Bus {
 
   /// The programs that are ignored from now on.
   std::vector<std::string> TakeWarnings() override;
-  std::uint32_t earliest_readers() const override;
+  std::uint32_t earliest_readers() const override { return earliest_readers_; }
 
   std::vector<std::string> flooding() const override;
 
@@ -63,6 +63,7 @@ class DdsBus final : public Bus {
   DdsSession session_;
   std::chrono::nanoseconds standstill_{0};
   std::chrono::steady_clock::time_point ran_;  ///< It certainly ran then.
+  std::uint32_t earliest_readers_ = 0;
   bool holds_ = false;
   std::vector<v1::Output> held_;  ///< Of one step.
 };

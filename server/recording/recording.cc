@@ -103,6 +103,7 @@ bool RecordingWriter::WriteParts(const v1::RecordedBatch& batch) {
     part.set_wall_ns(batch.wall_ns());
     part.set_monotonic_ns(batch.monotonic_ns());
     part.set_wall_was_set(batch.wall_was_set());
+    part.set_earliest_readers(batch.earliest_readers());
     bytes = kEntryOverhead;
   };
   begin_part();

@@ -21,6 +21,7 @@ ReplaySource::ReplaySource(RecordingReader& reader, OutputFunction output)
 bool ReplaySource::Receive(std::chrono::nanoseconds, std::size_t, std::vector<v1::Input>* inputs) {
   if (!next_) return false;
   now_ = TimesOf(*next_);
+  earliest_readers_ = next_->earliest_readers();
   for (v1::Input& input : *next_->mutable_inputs()) inputs->push_back(std::move(input));
   next_ = reader_.Next();
   return true;

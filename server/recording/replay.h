@@ -12,8 +12,8 @@
 namespace collision::server {
 
 /// Hands out one recorded batch for each Receive(), and the times of that batch for each Read()
-/// until the next one: a daemon on it repeats every step of the recorded one, bit for bit, with the
-/// configuration that the reader holds. It never waits, and sends nothing.
+/// until the next one: a daemon on it repeats every step of the recorded one and all that it
+/// published, bit for bit, with the configuration that the reader holds. It never waits, and sends nothing.
 class ReplaySource final : public Bus, public Clock {
  public:
   using OutputFunction = std::function<void(const v1::Output&)>;
@@ -30,7 +30,7 @@ class ReplaySource final : public Bus, public Clock {
   void Flush() override {}
   void Wake() override {}
   bool recorded() const override { return true; }
-  std::uint32_t earliest_readers() const override { return 0; }
+  std::uint32_t earliest_readers() const override { return earliest_readers_; }
 
   /// The times of the last batch handed out; before that, those of the first.
   ClockReading Read() override { return now_; }
@@ -40,6 +40,7 @@ class ReplaySource final : public Bus, public Clock {
   OutputFunction output_;
   std::optional<v1::RecordedBatch> next_;
   ClockReading now_;
+  std::uint32_t earliest_readers_ = 0;  ///< At the last batch handed out.
 };
 
 }  // namespace collision::server

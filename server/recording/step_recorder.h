@@ -1,6 +1,7 @@
 // What each step saw, handed to a recording.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,10 @@ class StepRecorder {
   /// `sink` may be null: nothing is recorded. It outlives this.
   explicit StepRecorder(BatchSink* sink) : sink_(sink) {}
 
-  /// Before the step applies them. False: nothing more is recorded from now on, told once, by
-  /// failure().
-  bool Record(const ClockReading& reading, std::vector<v1::Input>* inputs);
+  /// Before the step applies them; `earliest_readers` is the bus's. False: nothing more is recorded
+  /// from now on, told once, by failure().
+  bool Record(const ClockReading& reading, std::uint32_t earliest_readers,
+              std::vector<v1::Input>* inputs);
 
   /// One line with path and cause; empty while all is well.
   const std::string& failure() const { return failure_; }

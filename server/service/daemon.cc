@@ -169,7 +169,7 @@ class Daemon::Implementation {
     clock_step_ = world_.SetReading(reading);
     ++steps_.batches;
     steps_.inputs += inputs->size();
-    if (recorder_.Record(reading, inputs)) return true;
+    if (recorder_.Record(reading, bus_.earliest_readers(), inputs)) return true;
     spdlog::error("{}; nothing more is recorded", recorder_.failure());
     schedule_.Hasten();
     return config_.on_recording_failure() != v1::Config::END;

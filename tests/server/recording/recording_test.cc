@@ -186,6 +186,7 @@ TEST_F(RecordingTest, BoundsTheSizeOfAnEntry) {
 v1::RecordedBatch LargeBatch() {
   v1::RecordedBatch batch = Batch(0);
   batch.set_wall_was_set(true);
+  batch.set_earliest_readers(3);
   for (int i = 0; i < 130; ++i) {
     v1::Input& input = *batch.add_inputs();
     input.set_sender(i);

@@ -20,6 +20,7 @@ class ReplayTest : public testing::Test {
       batch.set_monotonic_ns(10 * (i + 1));
       batch.set_wall_ns(1000 + i);
       batch.set_wall_was_set(i == 1);
+      batch.set_earliest_readers(7 + i);
       for (int j = 0; j < i; ++j) batch.add_inputs()->set_sender(100 * i + j);
       EXPECT_TRUE(writer.Record(batch));
     }
@@ -30,7 +31,8 @@ class ReplayTest : public testing::Test {
 };
 
 // Goal:   each Receive() is one recorded batch, whatever its limit, and Read() gives that batch's
-//         times until the next one; before the first it gives the first one's.
+//         times until the next one, as earliest_readers() gives its readers; before the first the
+//         times are the first one's.
 TEST_F(ReplayTest, RepeatsBatchesAndTimes) {
   RecordingReader reader(path_);
   ReplaySource source(reader);
@@ -43,6 +45,7 @@ TEST_F(ReplayTest, RepeatsBatchesAndTimes) {
     EXPECT_EQ(source.Read().monotonic_ns, 10 * (i + 1));
     EXPECT_EQ(source.Read().wall_ns, 1000 + i);
     EXPECT_EQ(source.Read().wall_was_set, i == 1);
+    EXPECT_EQ(source.earliest_readers(), 7u + i);
   }
   std::vector<v1::Input> inputs;
   EXPECT_FALSE(source.Receive({}, 1, &inputs));

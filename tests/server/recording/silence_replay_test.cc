@@ -53,13 +53,14 @@ TEST_F(SilenceReplayTest, EveryOutputComesAgain) {
   {
     RecordingWriter writer(path_, config_, claim_);
     ScriptedDaemon daemon(config_, DaemonParts{.recorder = &writer, .claim = claim_});
-    daemon.bus().earliest_read_by = 0;  // as in a replay
+    daemon.bus().earliest_read_by = 0;
     for (const char* name : {"alpha", "delta", "omega"}) {
       daemon.Step({From(name[0], Description(name, 0)), Near(name, name[0] * 0.5),
                    From(name[0], ClockAfter(name, 0, 1, 1))},
                   0.01);
     }
     daemon.Step({}, 9);  // nobody of the roster has come
+    daemon.bus().earliest_read_by = 1;
     daemon.Step({Liveliness('d', "delta", false)}, 0.01);
     daemon.Step({}, 9);
     daemon.Step({}, 21);
