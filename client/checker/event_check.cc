@@ -57,19 +57,13 @@ std::string Name(const Evidence& evidence, const TrueContact& contact) {
          evidence.Time(contact.begin_ns) + " to " + evidence.Time(contact.end_ns);
 }
 
-bool IsLeaving(const Evidence& evidence, const TrueContact& contact) {
-  const auto& motions = evidence.motions();
-  const std::int64_t end = std::min(motions[contact.a].end_ns(), motions[contact.b].end_ns());
-  return contact.begin_ns >= end - evidence.facts().leaving_ns;
-}
-
 bool Withdrawn(const EventHistory& history, const TrueContact& contact) {
   return history.last().status() == v1::EVENT_WITHDRAWN &&
          contact.begin_ns >= history.last().begin().earliest_ns() - contact.begin_tolerance_ns;
 }
 
 const EventHistory* Find(const Evidence& evidence, const TrueContact& contact) {
-  const bool leaving = IsLeaving(evidence, contact);
+  const bool leaving = evidence.MayHaveLeft(contact, contact.begin_ns);
   for (const EventHistory* history : evidence.HistoriesOf(contact.a, contact.b)) {
     if (Brackets(history->last(), contact) || (leaving && Withdrawn(*history, contact)))
       return history;
@@ -160,6 +154,10 @@ void CheckEnd(const Evidence& evidence, const TrueContact& contact, const EventH
     violations->push_back(Name(evidence, contact) + ": its event was never ended");
   }
   if (event.status() != v1::EVENT_ENDED) return;
+  if (evidence.MayHaveLeft(contact, contact.end_ns) &&
+      evidence.MayHaveLeft(contact, event.end().latest_ns())) {
+    return;
+  }
   for (const TrueContact* other : evidence.ContactsOf(contact.a)) {
     if (other->a != contact.a || other->b != contact.b) continue;
     if (event.continuous() && !Brackets(event, *other)) continue;

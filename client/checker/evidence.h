@@ -29,8 +29,8 @@ struct RunFacts {
   std::int64_t start_ns = 0;  ///< Start of the run, from which a scene's times count.
   /// End of the run: what a scene expects later is not demanded.
   std::int64_t end_ns = std::numeric_limits<std::int64_t>::max();
-  /// A contact that begins less than this before one of the two agents leaves may be withdrawn
-  /// instead of confirmed: simulators may be ahead of the service by the time it grants.
+  /// An agent may have left for the service this long before its motion ends: simulators may be
+  /// ahead by the time it grants. See Evidence::MayHaveLeft().
   std::int64_t leaving_ns = 0;
   /// With a wall clock: the longest delay of a sample. Changes this recent excuse a promise.
   std::int64_t transit_ns = 0;
@@ -112,6 +112,10 @@ class Evidence {
     return Changed(contact.a, contact.b, from_ns, to_ns);
   }
   bool Changed(std::size_t a, std::size_t b, std::int64_t from_ns, long double to_ns) const;
+
+  /// Whether one of the two may have left by then. Of who has left nothing is promised, a contact
+  /// that would begin later is withdrawn, and one in progress is ended.
+  bool MayHaveLeft(const TrueContact& contact, long double at_ns) const;
 
   /// Whether one of the two is more than a ball.
   bool HasMesh(std::size_t a, std::size_t b) const {

@@ -56,6 +56,7 @@ void CheckClearance(const Evidence& evidence, std::size_t motion, const Moment& 
     const TrueContact& contact = **it;
     if (contact.begin_ns >= agent.clear_until_ns() - kRootTolerance) return;
     if (!Breaks(contact, now_ns, agent.clear_until_ns())) continue;
+    if (evidence.MayHaveLeft(contact, now_ns)) continue;
     if (evidence.Changed(contact, now_ns, contact.begin_ns) || Announced(evidence, contact, then)) {
       continue;
     }
@@ -98,6 +99,7 @@ Violations CheckEarliest(const Evidence& evidence) {
       const long double until = sample.found() ? sample.earliest_ns() : kForEver;
       if (contact.begin_ns >= until - kRootTolerance) break;
       if (!Breaks(contact, sample.now_ns(), until)) continue;
+      if (evidence.MayHaveLeft(contact, sample.now_ns())) continue;
       if (evidence.Changed(contact, sample.now_ns(), contact.begin_ns)) continue;
       if (InContact(evidence, contact, then)) continue;
       violations.push_back(

@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
   app.add_option("--report", report,
                  "Report of scene-runner --json; without it the true contacts are listed");
   app.add_option("--leaving", leaving,
-                 "Contacts that begin this many seconds before an agent leaves may be withdrawn")
+                 "An agent may have left this many seconds before its motion ends")
       ->check(CLI::NonNegativeNumber);
   try {
     app.parse(argc, argv);

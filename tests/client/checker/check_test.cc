@@ -203,6 +203,33 @@ TEST_F(CheckTest, WrongEndBracketIsNoticed) {
   EXPECT_NE(Verdict().find("its end is not in the published bracket"), std::string::npos);
 }
 
+// Goal:   a contact in progress may end when an agent leaves, but not before it can have left.
+TEST_F(CheckTest, ADepartureEndsAContact) {
+  facts_.leaving_ns = 10 * kSecond;  // from 10 s on
+  const auto told_to_end = [this](double earliest, double latest) {
+    observations_.events.pop_back();
+    Add(3, 12 * kSecond, v1::EVENT_ENDED, {8.999, 9.001}, {earliest, latest});
+    return Verdict();
+  };
+  EXPECT_EQ(told_to_end(10.5, 10.8), "");
+  EXPECT_NE(told_to_end(9.5, 9.9).find("end is not in"), std::string::npos);
+}
+
+// Goal:   nothing is promised of an agent that has left; until it can have left, all is.
+TEST_F(CheckTest, ADepartureExcusesPromisesFromThenOn) {
+  observations_.events.erase(observations_.events.begin());
+  facts_.leaving_ns = 12 * kSecond;  // from 8 s on
+  AddClearance(0, 8 * kSecond, 12 * kSecond);
+  AddEarliest(8 * kSecond, false, kOpen);
+  const std::string announced = Verdict();
+  AddClearance(0, 8 * kSecond - 1, 12 * kSecond);
+  AddEarliest(8 * kSecond - 1, false, kOpen);
+  EXPECT_EQ(announced.find("promised"), std::string::npos) << announced;
+  EXPECT_EQ(announced.find("earliest"), std::string::npos) << announced;
+  EXPECT_NE(Verdict().find("promised"), std::string::npos);
+  EXPECT_NE(Verdict().find("earliest"), std::string::npos);
+}
+
 TEST_F(CheckTest, EventThatNeverEndsIsNoticed) {
   observations_.events.resize(2);
   EXPECT_NE(Verdict().find("never ended"), std::string::npos);

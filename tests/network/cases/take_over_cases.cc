@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -107,16 +106,6 @@ void Describe(std::vector<double> milliseconds, double promised_ms, Outcome* out
                                                  [&](double ms) { return ms <= promised_ms; })));
 }
 
-/// The simulators leave in the middle of the flight, in rounds that they have been granted: nothing
-/// is promised of agents that have left.
-void ForgetPromisesAfterLeaving(Flown* flown) {
-  std::int64_t end_ns = std::numeric_limits<std::int64_t>::max();
-  for (const auto& motion : flown->motions) end_ns = std::min(end_ns, motion.end_ns());
-  std::erase_if(flown->heard.observations.clearances, [&](const v1::Clearance& clearance) {
-    return clearance.now_ns() >= end_ns - flown->facts.leaving_ns;
-  });
-}
-
 /// After all these take-overs every contact has been told once and in time.
 void Judge(const Flown& flown, std::size_t take_overs, Outcome* outcome) {
   const std::size_t services = Services(flown.heard);
@@ -142,8 +131,7 @@ void TakeOver(const Setting& setting, Outcome* outcome) {
     AwaitFollowers(&testbed, successor.service);
     Mend(&testbed, active, kFault);
   }
-  Flown flown = testbed.FinishNow();
-  ForgetPromisesAfterLeaving(&flown);
+  const Flown flown = testbed.FinishNow();
   Judge(flown, static_cast<std::size_t>(count), outcome);
   Describe(milliseconds, 1e3 * (LeaseOf(setting) + kToldWithin_s), outcome);
   Report(testbed.lan().counts(), flown, outcome);
