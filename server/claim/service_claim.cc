@@ -44,10 +44,17 @@ void ServiceClaim::Hear(const HeardService& heard, std::int64_t now_ns) {
   ++known->second.samples;
 }
 
-void ServiceClaim::HearOfTerm(std::uint32_t term) {
+void ServiceClaim::HearClock(std::uint64_t service, std::uint32_t term) {
+  is_named_ = is_named_ || (is_unheard_ && (service == options_.instance || service == 0));
   const std::uint32_t known = std::max({highest_heard_, options_.term_before, term_});
   if (term <= known || term - known > kTermLeapMax) return;
   highest_heard_ = term;
+}
+
+bool ServiceClaim::BeginsToSpeak() {
+  if (!is_unheard_ || !is_named_) return false;
+  is_unheard_ = false;
+  return true;
 }
 
 /// Whether `other` keeps the world and this service leaves it.
@@ -58,7 +65,7 @@ bool ServiceClaim::GoesFirst(const HeardService& other) const {
     return other.phase == OtherPhase::kServing || stands_by || other.instance < options_.instance;
   }
   if (other.phase != OtherPhase::kServing) return false;
-  // Who wakes up knows of followers from before.
+  // A service that wakes up counted its followers before it slept.
   if (phase_ != ClaimPhase::kWaking && other.followed != followed_) return other.followed;
   return other.term != term_ ? other.term > term_ : other.instance < options_.instance;
 }
@@ -147,7 +154,8 @@ bool ServiceClaim::TakesOver(std::int64_t now_ns) {
 
 void ServiceClaim::Serve(std::int64_t now_ns) {
   contended_ns_.reset();
-  if (phase_ == ClaimPhase::kStandby) contended_ns_ = now_ns;
+  is_unheard_ = phase_ == ClaimPhase::kStandby;
+  if (is_unheard_) contended_ns_ = now_ns;
   const std::uint32_t highest = std::max({highest_heard_, options_.term_before, term_});
   term_ = highest == std::numeric_limits<std::uint32_t>::max() ? highest : highest + 1;
   phase_ = ClaimPhase::kServing;

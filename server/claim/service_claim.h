@@ -53,8 +53,8 @@ struct ClaimOptions {
 /// remembered + 1; at the greatest number it stays there, and the instance alone decides.
 ///
 /// Whoever serves yields only to a service that it has heard twice, so that one stray sample ends
-/// nobody. Who has served and yields does not come back: what it knows of the world is its own
-/// version of it. A process that is to stand by again starts afresh.
+/// nobody. A service that has served and yields does not come back: what it knows of the world is
+/// its own version of it. A process that is to stand by again starts afresh.
 ///
 /// **Standby.** With `stands_by` it does not end: it takes over, in a new term, when the network
 /// says that the one that serves is gone (HearEnd()). Of several standbys the one does that came in
@@ -80,8 +80,8 @@ class ServiceClaim {
   /// This process has stood still for so long. Shorter than standstill_ns() changes nothing.
   void WakeUp(std::int64_t gap_ns, std::int64_t now_ns);
 
-  /// What makes a difference: half a lease, where a standby may take over; nullopt: nothing does. A
-  /// service beside which none is meant to run would only speak later.
+  /// The standstill after which a standby may have taken over: half a lease; nullopt: none stands
+  /// by. Without one, a late service is only late.
   std::optional<std::int64_t> standstill_ns() const;
 
   /// What it publishes after so long a standstill within a step is to be held back; 0: nothing is.
@@ -93,10 +93,10 @@ class ServiceClaim {
   void SetFollowed(bool followed) { followed_ = followed; }
   bool followed() const { return followed_; }
 
-  /// A simulator follows, or has followed, a service of this term, which may be gone or stand
-  /// still: this one goes before it, once it serves. Who leaps by more than kTermLeapMax beyond
-  /// all that is known follows nobody.
-  void HearOfTerm(std::uint32_t term);
+  /// A clock, which may count or not, says that its simulator follows this service, or none (0), in
+  /// this term. That service may be gone or stand still: this one goes before it, once it serves. A
+  /// term more than kTermLeapMax above all that are known is ignored.
+  void HearClock(std::uint64_t service, std::uint32_t term);
 
   /// Brings the phase up to date; the first call begins the claim.
   void Update(std::int64_t now_ns);
@@ -110,6 +110,14 @@ class ServiceClaim {
 
   /// It does all the work of a service, whether it publishes it or not.
   bool works() const { return phase_ == ClaimPhase::kServing || phase_ == ClaimPhase::kStandby; }
+
+  /// Whether it publishes anything but its status: it serves and, if it has taken over, a simulator
+  /// has heard so. A standby whose cable is out takes over, too; nobody hears it, and what it says
+  /// of the world would be wrong.
+  bool speaks() const { return phase_ == ClaimPhase::kServing && !is_unheard_; }
+
+  /// True, once: it has taken over, a simulator has heard so since, and it speaks from now on.
+  bool BeginsToSpeak();
 
   /// kYielded, kStandby: the other service, in words for the log and standard error.
   const std::string& why() const { return why_; }
@@ -147,6 +155,8 @@ class ServiceClaim {
   std::optional<std::int64_t> contended_ns_;  ///< Serving: when it last was, though that one ended.
   std::optional<std::int64_t> woke_ns_;
   bool followed_ = false;
+  bool is_unheard_ = false;                ///< It has taken over, and does not speak yet.
+  bool is_named_ = false;                  ///< Since then: by a simulator.
   std::optional<std::int64_t> vacant_ns_;  ///< Since when nobody serves; while it stands by.
   std::uint32_t term_ = 0;
   std::uint32_t standby_term_ = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "idl/identity.h"
 #include "server/process/logging.h"
 
 namespace collision::server {
@@ -111,13 +112,13 @@ void AgentRegistry::Update(Simulator* simulator, std::uint32_t slot, std::uint64
   CountAccepted(simulator);
   simulator->agents().Acknowledge(slot, state.stamp, sequence);
   if (outcome == detection::UpdateOutcome::kBreached) {
-    LogAbout(
-        spdlog::level::warn, "declared bound violated", simulator->name(),
-        fmt::format(
-            "simulator {:016x} \"{}\" slot {} generation {}: its state at {} ns cannot "
-            "follow from the one before; detection goes on from the new state. Declare wider "
-            "bounds, or mark a jump as a discontinuity",
-            simulator->id(), simulator->name(), slot, id.generation, state.stamp.nanoseconds()));
+    LogAbout(spdlog::level::warn, "declared bound violated", simulator->name(),
+             fmt::format(
+                 "simulator {} \"{}\" slot {} generation {}: its state at {} ns cannot "
+                 "follow from the one before; detection goes on from the new state. Declare wider "
+                 "bounds, or mark a jump as a discontinuity",
+                 IdText(simulator->id()), simulator->name(), slot, id.generation,
+                 state.stamp.nanoseconds()));
   }
 }
 

@@ -25,8 +25,8 @@ bool IsOf(const v1::Input& input, std::uint64_t simulator) {
 
 }  // namespace
 
-void FollowedRounds::StandBy(Instant granted) {
-  world_.StandBy(granted);
+void FollowedRounds::StandBy() {
+  world_.StandBy();
   follows_ = true;
 }
 

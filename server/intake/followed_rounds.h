@@ -25,9 +25,8 @@ class FollowedRounds {
   /// Both outlive this.
   FollowedRounds(World* world, Intake* intake) : world_(*world), intake_(*intake) {}
 
-  /// The service stands by in this step. `granted`: the greatest time that the service in force is
-  /// known to have granted.
-  void StandBy(Instant granted);
+  /// The service stands by in this step.
+  void StandBy();
 
   /// Applies the input, or keeps it.
   void Apply(const v1::Input& input);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "idl/identity.h"
 #include "server/process/logging.h"
 
 namespace collision::server {
@@ -76,8 +77,8 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
   }
   if (claim.new_run) {
     Log(spdlog::level::info, "run begins",
-        fmt::format("simulator {:016x} \"{}\": run {} follows run {}, whose {} agents are removed",
-                    claim.simulator->id(), claim.simulator->name(), where.run,
+        fmt::format("simulator {} \"{}\": run {} follows run {}, whose {} agents are removed",
+                    IdText(claim.simulator->id()), claim.simulator->name(), where.run,
                     claim.simulator->run(), claim.simulator->agents().size()));
     agents_.RemoveAll(claim.simulator);
     shapes_.Release(claim.simulator->id());
@@ -156,7 +157,7 @@ void Intake::TakeClock(const v1::Input& input) {
   Simulator* simulator = Claimed(input, At(wire), &wire.simulator_name());
   if (simulator == nullptr) return;
   if (input.quarantined()) return rejections_.Add(Quarantined(At(wire)));
-  simulator->SetHears(Names(wire));
+  simulator->SetFollows(Names(wire));
   sender_clocks_.Take(simulator, wire);
   SimulatorTime& time = simulator->time();
   const bool tells_none = wire.clock_ns() == Instant::Always().nanoseconds();
@@ -204,8 +205,8 @@ bool Intake::Names(const v1::SimulatorClock& clock) const {
 void Intake::NoteFollower(const v1::SimulatorClock& clock) {
   Simulator* simulator = world_.Find(clock.simulator_id());
   if (simulator == nullptr || simulator->run() != clock.run()) return;
-  simulator->SetHears(Names(clock));
-  if (simulator->hears()) simulator->SetFollows(true);
+  simulator->SetFollows(Names(clock));
+  if (simulator->follows()) simulator->EndInheritance();
 }
 
 bool Intake::MayRemove(const Simulator& simulator, const v1::Input& input, bool is_owners,

@@ -41,7 +41,7 @@ class Intake {
 
   void Apply(const v1::Input& input);
 
-  /// Whether this clock says that its simulator follows this service (Simulator::follows()).
+  /// Whether this clock, which counts, says that its simulator follows this service.
   void NoteFollower(const v1::SimulatorClock& clock);
 
   /// Whether another service publishes in this world, or did lately (Clearances::Acknowledge()).

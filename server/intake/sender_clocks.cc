@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "idl/identity.h"
 #include "server/process/logging.h"
 
 namespace collision::server {
@@ -19,12 +20,12 @@ void SenderClocks::Take(Simulator* simulator, const v1::SimulatorClock& clock) {
     agents_.VoidAll(simulator, within_until);
     names_.Add(simulator->name());
     Log(spdlog::level::warn, "clock of a simulator is off",
-        fmt::format("simulator {:016x} \"{}\": its clock is {}", simulator->id(), simulator->name(),
-                    WhatIsWrong(*simulator)));
+        fmt::format("simulator {} \"{}\": its clock is {}", IdText(simulator->id()),
+                    simulator->name(), WhatIsWrong(*simulator)));
   } else if (verdict == SenderVerdict::kTaken) {
     Log(spdlog::level::info, "clock of a simulator is right again",
-        fmt::format("simulator {:016x} \"{}\": its clock is {}; its states are taken",
-                    simulator->id(), simulator->name(),
+        fmt::format("simulator {} \"{}\": its clock is {}; its states are taken",
+                    IdText(simulator->id()), simulator->name(),
                     OffsetText(simulator->sender_clock().offset(world_.monotonic_ns()))));
   }
 }

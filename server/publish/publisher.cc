@@ -110,28 +110,17 @@ std::vector<Telling> Publisher::Filter(const std::vector<detection::CollisionEve
 void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events,
                               const World& world) {
   for (const Telling& telling : Filter(events, world)) {
-    if (speaks()) {
+    if (claim_.speaks()) {
       Publish(telling, world);
     } else if (telling.contact) {
       inherited_.Keep(telling.event);
     }
   }
-  if (speaks() && !world.simulated()) bus_.Flush();
-}
-
-bool Publisher::BeginToSpeak(const World& world) {
-  if (!is_unheard_ || !is_named_) return false;
-  is_unheard_ = false;
-  PublishInherited(world);
-  return true;
+  if (claim_.speaks() && !world.simulated()) bus_.Flush();
 }
 
 void Publisher::Hear(const v1::Input& input) {
-  if (speaks()) return;
-  if (input.has_event_heard()) inherited_.Hear(input.event_heard());
-  if (!is_unheard_ || !input.has_simulator_clock()) return;
-  const std::uint64_t named = input.simulator_clock().service_id();
-  is_named_ = is_named_ || named == claim_.instance() || named == 0;
+  if (!claim_.speaks() && input.has_event_heard()) inherited_.Hear(input.event_heard());
 }
 
 void Publisher::PublishInherited(const World& world) {

@@ -37,26 +37,18 @@ class Publisher {
   /// Publishes what is new to readers (EventFilter). Contacts are numbered from 1, and leave before
   /// the clearances of the same step, which name the last one: a simulator that is granted time
   /// hears first whom it has met. With a wall clock they are sent at once, before the clearances of
-  /// all agents are written. While it does not speak it takes note of them.
+  /// all agents are written. While this service does not speak it takes
+  /// note of them.
   void PublishEvents(const std::vector<detection::CollisionEvent>& events, const World& world);
 
-  /// Every input, before it is applied. While it does not speak it takes note of the events of
-  /// another service, and of whether a clock, which may count or not, tells that its simulator has
-  /// heard this service.
+  /// Every input, before it is applied. While this service does not speak
+  /// (ServiceClaim::speaks()) it takes note of the events of another one.
   void Hear(const v1::Input& input);
 
-  /// Whether this service publishes anything but its status: it serves and, if it has taken over, a
-  /// simulator has heard so. A standby whose cable is out takes over, too; nobody hears it, and its
-  /// word would be no news to others but wrong.
-  bool speaks() const { return claim_.phase() == ClaimPhase::kServing && !is_unheard_; }
-
-  /// It has taken over.
-  void TakeOver() { is_unheard_ = true; }
-
-  /// Begins to speak if it has taken over and a simulator has heard it: publishes the contacts that
-  /// the other service has not, and what stands told of pairs whose event is not over; readers know
-  /// which of these they have heard. True: it does. Call it before the events of a step.
-  bool BeginToSpeak(const World& world);
+  /// This service has taken over and speaks from now on: publishes the contacts that the other one
+  /// has not, and what stands told of pairs whose event is not over; readers know which of these
+  /// they have heard. Call it before the events of a step.
+  void PublishInherited(const World& world);
 
   /// Whether somebody reads the earliest intersection and `earliest_period_s` is over since it was
   /// last published or found unchanged.
@@ -84,7 +76,6 @@ class Publisher {
   v1::ServiceStamp NextStamp();
   std::vector<Telling> Filter(const std::vector<detection::CollisionEvent>& events,
                               const World& world);
-  void PublishInherited(const World& world);
   void Publish(const Telling& telling, const World& world);
   void PublishContact(v1::CollisionEvent event);
   void PublishChunk(const World& world, Simulator* to, std::uint32_t chunk);
@@ -98,8 +89,6 @@ class Publisher {
   EventLog event_log_;
   EventFilter filter_;
   InheritedEvents inherited_;
-  bool is_unheard_ = false;  ///< It has taken over, and does not speak yet.
-  bool is_named_ = false;    ///< Since then: by a simulator.
   EventCounters events_;
   const std::int64_t earliest_period_ns_;
   std::uint32_t earliest_readers_ = 0;

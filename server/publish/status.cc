@@ -139,9 +139,11 @@ void AddNames(const std::string& key, const std::vector<std::string>& names,
 
 /// Whom the world's time waits for: the names for programs, and for people why and how long.
 void AddWaiting(const StatusSources& sources, v1::ServiceStatus* status) {
-  std::vector<std::string> names = sources.world.WaitedFor();
-  std::vector<std::string> reasons;
-  for (const Awaited& one : sources.world.Waited()) reasons.push_back(WaitText(one, sources.world));
+  std::vector<std::string> names, reasons;
+  for (const Awaited& one : sources.world.Waited()) {
+    names.push_back(one.name);
+    reasons.push_back(WaitText(one, sources.world));
+  }
   if (const std::size_t to_come = sources.world.SimulatorsToCome(); to_come > 0) {
     names.push_back(fmt::format("simulators to come: {}", to_come));
     reasons.push_back(names.back() + " before time begins (clock.simulators_awaited)");

@@ -114,7 +114,10 @@ class Daemon::Implementation {
     full_batches_.Take(inputs, config_.inputs_per_batch_max());
     if (!full_batches_.holds_clocks()) intake_.TakeClocks();
     rounds_.ApplyKept();
-    if (publisher_.BeginToSpeak(world_)) schedule_.Hasten();
+    if (claim_.BeginsToSpeak()) {
+      publisher_.PublishInherited(world_);
+      schedule_.Hasten();
+    }
     const bool restarts = claim_.works() && operators_.ObeyAll(inputs);
     if (operators_.TakeNews()) schedule_.Hasten();
     const bool removed = RemoveSilent();
@@ -123,7 +126,7 @@ class Daemon::Implementation {
     if (restarts) EndEpoch("an operator restarts time");
     if (claim_.works() && world_.EpochIsOver()) EndEpoch("no simulator holds time any more");
     intake_.EndBatch();
-    if (publisher_.speaks()) {
+    if (claim_.speaks()) {
       if (!KeepState(journal_.Keep(world_))) return false;
       PublishAnswers();
     } else {
@@ -147,13 +150,13 @@ class Daemon::Implementation {
     }
     std::int64_t due = schedule_.next_ns();
     if (claim_.phase() == ClaimPhase::kWaking) due = *claim_.NextDue();
-    if (const auto next = intake_.NextDue()) due = std::min(due, *next);
-    if (const auto next = world_.NextRelease()) due = std::min(due, *next);
-    if (const auto next = world_.NextRevision(); next && publisher_.speaks())
-      due = std::min(due, *next);
-    if (const auto next = claim_.NextDue()) due = std::min(due, *next);
-    if (const auto next = reports_.next_ns(); next && publisher_.speaks())
-      due = std::min(due, *next);
+    const bool speaks = claim_.speaks();
+    for (const std::optional<std::int64_t>& next :
+         {intake_.NextDue(), world_.NextRelease(), claim_.NextDue(),
+          speaks ? world_.NextRevision() : std::nullopt,
+          speaks ? reports_.next_ns() : std::nullopt}) {
+      if (next) due = std::min(due, *next);
+    }
     std::int64_t wait = due - world_.monotonic_ns();
     if (!world_.simulated()) {
       const int slices = detector_.pairs_waiting() > 0 ? kSlicesPerResolution : 1;
@@ -179,7 +182,10 @@ class Daemon::Implementation {
   bool Claim(const std::vector<v1::Input>& inputs) {
     const std::int64_t now_ns = world_.monotonic_ns();
     for (const v1::Input& input : inputs) {
-      if (input.has_simulator_clock()) claim_.HearOfTerm(input.simulator_clock().service_term());
+      if (input.has_simulator_clock()) {
+        const v1::SimulatorClock& clock = input.simulator_clock();
+        claim_.HearClock(clock.service_id(), clock.service_term());
+      }
       publisher_.Hear(input);
       if (input.has_service_heard()) HearService(input.service_heard());
     }
@@ -189,7 +195,7 @@ class Daemon::Implementation {
     services_.Write(claim_.Conflicts(now_ns), now_ns);
     intake_.SetContended(claim_.IsContended(now_ns));
     if (claim_.phase() != before) ChangePhase(before);
-    if (claim_.phase() == ClaimPhase::kStandby) rounds_.StandBy(heard_granted_);
+    if (claim_.phase() == ClaimPhase::kStandby) rounds_.StandBy();
     bus_.HoldAfter(std::chrono::nanoseconds(claim_.hold_after_ns()));
     return claim_.phase() != ClaimPhase::kYielded;
   }
@@ -201,8 +207,9 @@ class Daemon::Implementation {
     const bool is_lonely = heard.agents() > 0 && !heard.followed();  // its own cable may be out
     if (claim_.phase() == ClaimPhase::kServing || heard.phase() != v1::PHASE_SERVING || is_lonely)
       return;
-    heard_granted_ = Instant::FromNanoseconds(heard.granted_until_ns());
     if (!advanced_to_ && world_.FollowEpoch(heard.epoch())) publisher_.BeginEpoch(world_.epoch());
+    if (heard.epoch() == world_.epoch())
+      world_.HearGranted(Instant::FromNanoseconds(heard.granted_until_ns()));
     if (claim_.phase() != ClaimPhase::kStandby) return;
     if (services_.HearOfWork(heard, detector_.agents(), world_.newest())) schedule_.Hasten();
   }
@@ -218,7 +225,7 @@ class Daemon::Implementation {
         if (before != ClaimPhase::kStandby) return;
         world_.TakeOver();
         reports_ = {};  // everybody is told anew what holds
-        return publisher_.TakeOver();
+        return;
       case ClaimPhase::kStandby:
         bus_.EndHold(false);
         spdlog::info("{}: stands by", claim_.why());
@@ -282,7 +289,7 @@ class Daemon::Implementation {
   /// Publishes the end of what was told in this epoch, and begins the next.
   void CloseEpoch(const char* why) {
     if (claim_.works()) Detect(true);
-    if (publisher_.speaks()) PublishAnswers();
+    if (claim_.speaks()) PublishAnswers();
     Log(spdlog::level::info, "epoch over",
         fmt::format("epoch {} ends at {} s: {}", world_.epoch(),
                     1e-9 * static_cast<double>(world_.now().nanoseconds()), why));
@@ -426,7 +433,6 @@ class Daemon::Implementation {
   ShareReport shares_;
   std::optional<ClockStep> clock_step_;  ///< Of this step.
   std::optional<Instant> advanced_to_;
-  Instant heard_granted_ = Instant::Always();  ///< By another service.
   FullBatches full_batches_;
   std::atomic<bool> stopped_ = false;
 };

@@ -29,8 +29,8 @@ struct DaemonParts {
   std::function<Journal*()> open_journal = nullptr;
   Quarantine* quarantine = nullptr;  ///< Notes which message is applied, for the next start.
   std::string state_failure = {};    ///< Why there is no journal, if one was wanted.
-  std::string process = {};          ///< ProcessText(), for log and status of other services.
-  ClaimOptions claim = {};           ///< By default it serves from the first step.
+  std::string process = {};  ///< ProcessText(): its status shows it, and other services log it.
+  ClaimOptions claim = {};   ///< By default it serves from the first step.
   /// Called while a step goes on, after each bounded piece of the detector's work. True: a status
   /// is published now, in the middle of the step. Decides nothing else.
   std::function<bool()> progress = nullptr;

@@ -100,7 +100,7 @@ bool OperatorCommands::TakeNews() { return std::exchange(news_, false); }
 void OperatorCommands::AddExtensions(std::vector<v1::KeyValue>* extensions) const {
   for (const Answer& answer : answers_) {
     v1::KeyValue& extension = extensions->emplace_back();
-    extension.set_key(fmt::format("operator.{:016x}", answer.command_id));
+    extension.set_key("operator." + IdText(answer.command_id));
     extension.set_value(answer.text);
   }
 }

@@ -25,8 +25,8 @@ bool SilenceReport::TakeWaited(const std::vector<Awaited>& waited) {
       case WaitReason::kStands:
         stands_.Add(one.name);
         break;
-      case WaitReason::kFollows:
-        follows_.Add(one.name);
+      case WaitReason::kDoesNotFollowYet:
+        not_following_.Add(one.name);
         break;
       case WaitReason::kMissing:
         missing_.Add(one.name);
@@ -48,7 +48,7 @@ void SilenceReport::AddRemoved(const std::string& name) {
 }
 
 void SilenceReport::Write(std::int64_t monotonic_ns) {
-  for (NamesLog* log : {&silent_, &stands_, &follows_, &missing_, &releases_, &removals_}) {
+  for (NamesLog* log : {&silent_, &stands_, &not_following_, &missing_, &releases_, &removals_}) {
     log->Write(monotonic_ns);
   }
 }

@@ -39,7 +39,7 @@ class SilenceReport {
   NamesLog stands_{
       "world time waits for simulator {}: it was granted time and does not move (see "
       "clock.waiting_after_s); let it go on, or evict it with collisionctl evict"};
-  NamesLog follows_{
+  NamesLog not_following_{
       "world time waits for simulator {}: it is there, but has not heard this service yet, which "
       "has just begun to serve; there is nothing to do unless this lasts"};
   NamesLog missing_{

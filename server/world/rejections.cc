@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "idl/identity.h"
 #include "server/process/logging.h"
 
 namespace collision::server {
@@ -42,10 +43,11 @@ void Rejections::Add(const Refusal& refusal) {
   const bool stands = simulator != nullptr && StandingRefusals::Stands(refusal.reason);
   if (stands) simulator->refusals().Add(refusal);
   const std::string& reason = v1::RejectionReason_Name(refusal.reason);
-  LogAbout(spdlog::level::warn, "input refused", simulator ? simulator->name() : "",
-           fmt::format("{} simulator {:016x} \"{}\" run {} slot {} generation {}: {}: {}", reason,
-                       refusal.simulator_id, simulator ? simulator->name() : "", refusal.run,
-                       refusal.slot, refusal.generation, refusal.field, refusal.detail));
+  LogAbout(
+      spdlog::level::warn, "input refused", simulator ? simulator->name() : "",
+      fmt::format("{} simulator {} \"{}\" run {} slot {} generation {}: {}: {}", reason,
+                  IdText(refusal.simulator_id), simulator ? simulator->name() : "", refusal.run,
+                  refusal.slot, refusal.generation, refusal.field, refusal.detail));
   if (!MayTell(refusal.simulator_id)) {
     ++suppressed_;
     return;

@@ -31,7 +31,7 @@ void Silence::Update(const Simulators& simulators, std::int64_t now_ns) {
   Instant greatest_alive = Instant::Always();
   for (const auto& [id, simulator] : simulators) {
     if (!simulator.time().clock()) continue;
-    if (simulator.follows()) roster_.Arrive(id, simulator.run());
+    if (!simulator.is_inherited()) roster_.Arrive(id, simulator.run());
     if (!simulator.holds_time()) continue;
     const Instant told = simulator.time().told_until();
     least = std::min(least, told);
@@ -106,8 +106,11 @@ std::vector<Awaited> Silence::Waited(const Simulators& simulators, std::int64_t 
   }
   for (const auto& [id, entry] : roster_.entries()) {
     const auto there = simulators.find(id);
+    if (there != simulators.end() && there->second.holds_time() && !there->second.alive()) {
+      continue;  // kEnded says so
+    }
     const bool lives = there != simulators.end() && there->second.alive();
-    waited.push_back({entry.name, lives ? WaitReason::kFollows : WaitReason::kMissing});
+    waited.push_back({entry.name, lives ? WaitReason::kDoesNotFollowYet : WaitReason::kMissing});
   }
   std::sort(waited.begin(), waited.end());
   return waited;

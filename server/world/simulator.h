@@ -77,15 +77,21 @@ class Simulator {
     return {.simulator = id_, .slot = slot, .run = run_, .generation = generation};
   }
 
-  /// Its newest clock follows this service. Not so at first after a take-over: it may have been
-  /// granted more than this service has heard of.
+  /// Its newest clock names this service, or none. Whether that clock was refused makes no
+  /// difference: it is told so by the service that it has heard.
   bool follows() const { return follows_; }
   void SetFollows(bool follows) { follows_ = follows; }
 
-  /// Its newest clock names this service, or none. Whether that clock was refused makes no
-  /// difference: it is told so by the service that it has heard.
-  bool hears() const { return hears_; }
-  void SetHears(bool hears) { hears_ = hears; }
+  /// Taken over from another service, and no clock of it that counts has followed this one since:
+  /// it may have been granted more than this service has heard of.
+  bool is_inherited() const { return is_inherited_; }
+  void EndInheritance() { is_inherited_ = false; }
+
+  /// This service takes over from another one.
+  void TakeOver() {
+    follows_ = false;
+    is_inherited_ = true;
+  }
 
   SenderClock& sender_clock() { return sender_clock_; }
   const SenderClock& sender_clock() const { return sender_clock_; }
@@ -121,8 +127,8 @@ class Simulator {
   std::optional<std::int64_t> doubted_until_ns_;
   std::int64_t released_since_ns_ = 0;
   std::uint32_t incarnation_ = 0;
-  bool follows_ = true;
-  bool hears_ = false;
+  bool follows_ = false;
+  bool is_inherited_ = false;
   SenderClock sender_clock_;
   SimulatorTime time_;
   AgentTable agents_;

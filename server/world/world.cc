@@ -215,12 +215,6 @@ std::vector<std::string> World::ReleaseSilent() {
 
 std::vector<Awaited> World::Waited() const { return silence_.Waited(simulators_, monotonic_ns()); }
 
-std::vector<std::string> World::WaitedFor() const {
-  std::vector<std::string> names;
-  for (const Awaited& one : Waited()) names.push_back(one.name);
-  return names;
-}
-
 std::optional<std::int64_t> World::NextRelease() const {
   return silence_.NextDue(simulators_, monotonic_ns());
 }
@@ -243,11 +237,10 @@ void World::RaiseInheritedGrant() {
   silence_.roster().RaiseGrant(promised_from_);
 }
 
-void World::StandBy(Instant granted) {
-  // Whoever is missing since its own last run, the other service waits for, or does not.
+void World::StandBy() {
+  // Whether time waits for those that our journal misses is for the service in force to decide.
   if (!stands_by_) silence_.roster().GiveUpAll();
   stands_by_ = true;
-  HearGranted(granted);
 }
 
 void World::HearGranted(Instant granted) {
@@ -257,8 +250,7 @@ void World::HearGranted(Instant granted) {
 void World::TakeOver() {
   stands_by_ = false;
   for (auto& [id, simulator] : simulators_) {
-    simulator.SetFollows(false);
-    simulator.SetHears(false);
+    simulator.TakeOver();
     simulator.agents().clearances().MarkAllChanged();
   }
   if (!simulated_ || NewestClock() == Instant::Always()) return;
@@ -279,7 +271,7 @@ std::size_t World::followers() const {
   if (stands_by_) return 0;
   return static_cast<std::size_t>(
       std::count_if(simulators_.begin(), simulators_.end(), [](const auto& one) {
-        return one.second.alive() && one.second.hears() && !one.second.has_left();
+        return one.second.alive() && one.second.follows() && !one.second.has_left();
       }));
 }
 
@@ -331,7 +323,7 @@ void World::BeginWallEpoch() {
 Instant World::LatestAllowed(const Simulator& simulator) const {
   if (!simulated_) return numeric::AddRoundedDown(wall_time_.reading(), skew_);
   // Another service, which it still follows, may have granted it more than this one has heard of.
-  if (!simulator.follows()) return Instant::Never();
+  if (simulator.is_inherited()) return Instant::Never();
   const SimulatorTime& time = simulator.time();
   const bool waits = time.lock_step() && time.granted();
   if (!started_ && !waits && !time.first_clock()) return first_clock_max_;

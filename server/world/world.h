@@ -132,7 +132,6 @@ class World {
 
   /// Simulated clock: whom the world's time waits for.
   std::vector<Awaited> Waited() const;
-  std::vector<std::string> WaitedFor() const;  ///< Their names.
 
   /// Ends the run of a simulator: nothing more is taken of it. Requires that its agents have been
   /// removed.
@@ -168,12 +167,13 @@ class World {
   std::int64_t monotonic_ns() const { return reading_.monotonic_ns; }
 
   /// Another service serves this world, and this one stands by: simulators follow the grants of
-  /// that one, of which `granted` is the greatest that was heard (simulated clock; else Always()).
-  void StandBy(Instant granted);
+  /// that one.
+  void StandBy();
 
   bool stands_by() const { return stands_by_; }
 
-  /// Another service has granted so much: that is its word, or a clock that a simulator has told.
+  /// Another service has granted so much in this epoch: that is its word, or a clock that a
+  /// simulator has told.
   void HearGranted(Instant granted);
 
   /// This service serves from now on, in place of the one beside which it stood by. Simulated

@@ -25,11 +25,7 @@ bool CurrentService::Hear(const v1::ServiceHeard& heard) {
 bool CurrentService::Accept(const v1::ServiceStamp& stamp, Time now, bool followed) {
   if (stamp.service_id() != id_) {
     const bool silent = now - heard_ >= (followed ? kServiceSilence : kServiceLoss);
-    if (id_ != 0 && !GoesFirst(stamp, followed) && !silent) {
-      ++conflicts_;
-      return false;
-    }
-    if (id_ != 0) ++changes_;
+    if (id_ != 0 && !GoesFirst(stamp, followed) && !silent) return false;
     id_ = stamp.service_id();
     followed_ = false;
   } else if (IsPast(stamp)) {

@@ -20,16 +20,16 @@ namespace collision::client {
 /// what it promised has expired.
 inline constexpr std::chrono::nanoseconds kServiceSilence(wire::kServiceLease);
 
-/// As long as this one that nobody follows waits, although the network does not say that the one in
-/// force has ended: longer than the period of any status.
+/// How long a service without followers waits for the one in force to fall silent, where the
+/// network does not say that it has ended: longer than the period of any status.
 inline constexpr std::chrono::nanoseconds kServiceLoss = 6 * kServiceSilence;
 
 /// The service in force: of those that speak one that simulators follow, of several the one with
 /// the highest term, of equal terms the one with the lower id. Such a service takes over at once,
 /// unless its term is lower: then when the one in force has been silent for kServiceSilence. So a
-/// term that was only a test, or a forged one, is in force no longer than it is repeated, and
-/// conflicts() tells of it. One that nobody follows, such as a standby that has taken over, waits
-/// for the network to say that the one in force has ended: it may have lost sight of it alone.
+/// term that was only a test, or a forged one, is in force no longer than it is repeated. One
+/// that nobody follows, such as a standby that has taken over, waits for the network to say that
+/// the one in force has ended: it may have lost sight of it alone.
 ///
 /// It judges each sample by its stamp, and its answers depend on nothing but the calls. One thread.
 class CurrentService {
@@ -59,13 +59,6 @@ class CurrentService {
   /// The epoch of its newest sample. What it said in an earlier epoch is not accepted any more.
   std::uint32_t epoch() const { return epoch_; }
 
-  /// How often another service came into force than the one before; not counting the first.
-  std::uint64_t changes() const { return changes_; }
-
-  /// Samples dropped because another service is in force: more than a few mean that two services
-  /// publish in one world.
-  std::uint64_t conflicts() const { return conflicts_; }
-
  private:
   /// Ended services that are remembered; beyond, any is forgotten.
   static constexpr std::size_t kEndedMax = 16;
@@ -78,8 +71,6 @@ class CurrentService {
   bool followed_ = false;  ///< As a sample has said; samples of different topics overtake.
   std::set<std::uint64_t> ended_;
   Time heard_{};
-  std::uint64_t changes_ = 0;
-  std::uint64_t conflicts_ = 0;
 };
 
 /// Of any output.

@@ -6,10 +6,12 @@
 
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "client/library/network/message_monitor.h"
 #include "idl/service_heard.h"
+#include "tests/client/fake_receiver.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
 
@@ -31,18 +33,6 @@ v1::Config Wall() {
 server::DaemonParts PartsOf(std::uint64_t instance) {
   return {.claim = {.instance = instance, .heard_for_ns = 2'000'000'000, .stands_by = true}};
 }
-
-class Line final : public Receiver {
- public:
-  explicit Line(Arrivals* next) : next_(next) {}
-  void Receive(std::chrono::nanoseconds, Arrivals* arrivals) override {
-    *arrivals = std::exchange(*next_, {});
-  }
-  bool service_alive() const override { return true; }
-
- private:
-  Arrivals* next_;
-};
 
 class EpochTakeOverTest : public testing::Test {
  protected:
@@ -149,7 +139,7 @@ class EpochTakeOverTest : public testing::Test {
   int scene_ = 1;
   std::map<std::pair<int, v1::EventStatus>, std::size_t> told_;
   Arrivals next_;
-  MessageMonitor monitor_{std::make_unique<Line>(&next_), Callbacks()};
+  MessageMonitor monitor_{std::make_unique<FakeReceiver>(&next_), Callbacks()};
 };
 
 TEST_F(EpochTakeOverTest, OneServiceTellsEachSceneOnce) {

@@ -210,8 +210,8 @@ TEST(ServiceClaim, ATermThatSimulatorsFollowCountsUnlessItIsTheGreatest) {
   ServiceClaim former = Serving(1);
   ServiceClaim claim(Options(5));
   claim.Update(0);
-  claim.HearOfTerm(former.term());
-  claim.HearOfTerm(kTermMax);
+  claim.HearClock(1, former.term());
+  claim.HearClock(1, kTermMax);
   claim.Update(kSecond);
   EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
   EXPECT_EQ(claim.term(), former.term() + 1);
@@ -244,12 +244,12 @@ TEST(ServiceClaim, AStandbyForgetsNoServiceThatServesWhenAnotherOneStarts) {
 
 TEST(ServiceClaim, AnImplausibleTermOfASimulatorDoesNotCount) {
   ServiceClaim claim(Options(5, 7));
-  claim.HearOfTerm(7 + kTermLeapMax + 1);
+  claim.HearClock(1, 7 + kTermLeapMax + 1);
   claim.Update(0);
   claim.Update(kSecond);
   EXPECT_EQ(claim.term(), 8u);
   ServiceClaim other(Options(5, 7));
-  other.HearOfTerm(7 + kTermLeapMax);
+  other.HearClock(1, 7 + kTermLeapMax);
   other.Update(0);
   other.Update(kSecond);
   EXPECT_EQ(other.term(), 8 + kTermLeapMax);

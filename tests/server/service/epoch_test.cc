@@ -232,6 +232,37 @@ TEST(EpochOfAStandby, IsThatOfTheServiceBesideIt) {
   EXPECT_EQ(daemon.status().stamp().epoch(), 4u) << "its own time has begun";
 }
 
+// Goal:   what the other service granted in an epoch that is over holds nobody in the next one.
+TEST(EpochOfAStandby, GrantsOfAnEpochThatIsOverDoNotCount) {
+  ScriptedDaemon daemon(Config(), {.claim = {.instance = 2, .stands_by = true}});
+  v1::Input heard;
+  v1::ServiceHeard& service = *heard.mutable_service_heard();
+  service.set_service_id(1);
+  service.set_term(1);
+  service.set_phase(v1::PHASE_SERVING);
+  service.set_epoch(1);
+  service.set_granted_until_ns(1000 * 1'000'000'000LL);
+  Voyage run;
+  daemon.Step({heard});
+  daemon.Step(run.Told(0), 0.01);
+  daemon.Step(Joined(run.Removals(), {run.End()}), 0.01);
+  ASSERT_EQ(daemon.status().stamp().epoch(), 2u);
+  run = {.sender = 2, .run = 2};
+  daemon.Step(run.Told(0), 0.01);
+  service.set_sequence(2);  // of the old epoch, and late
+  daemon.Step({heard}, 0.01);
+  service.set_ended(true);
+  daemon.Step({heard}, 0.01);
+  std::vector<v1::Input> told = run.Told(0);
+  for (v1::Input& input : told) {
+    if (input.has_simulator_clock()) input.mutable_simulator_clock()->set_service_id(2);
+  }
+  daemon.Step(told, 0.01);
+  const v1::Clearance clearance = daemon.clearance(SimulatorId("alpha"));
+  ASSERT_GT(clearance.agents_size(), 0);
+  EXPECT_LT(clearance.agents(0).effective_from_ns(), 100 * 1'000'000'000LL);
+}
+
 // What a standby says whose own cable was out would be wrong.
 TEST(ATakeOver, IsSilentButForItsStatusUntilASimulatorFollowsIt) {
   ScriptedDaemon daemon(Config(), {.claim = {.instance = 2, .stands_by = true}});

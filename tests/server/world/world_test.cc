@@ -154,15 +154,15 @@ TEST(World, ASilentSimulatorHoldsTimeUntilReleased) {
     silent.SetAlive(false, kSecond);
     world.SetReading({.monotonic_ns = 6 * kSecond - 1});
     EXPECT_TRUE(world.ReleaseSilent().empty());
-    EXPECT_EQ(world.WaitedFor(), std::vector<std::string>{"simulator 2"});
+    EXPECT_EQ(world.Waited(), (std::vector<Awaited>{{"simulator 2", WaitReason::kEnded}}));
     world.SetReading({.monotonic_ns = 6 * kSecond});
     EXPECT_EQ(world.ReleaseSilent().size(), policy == v1::Clock::RELEASE ? 1u : 0u);
-    EXPECT_EQ(world.WaitedFor().size(), policy == v1::Clock::RELEASE ? 0u : 1u);
+    EXPECT_EQ(world.Waited().size(), policy == v1::Clock::RELEASE ? 0u : 1u);
     EXPECT_EQ(world.ReleaseSilent().size(), 0u);
     world.MoveOn();
     EXPECT_EQ(world.now(), At(policy == v1::Clock::RELEASE ? 7 : 3));
     silent.agents().Remove(0);
-    EXPECT_TRUE(world.WaitedFor().empty());
+    EXPECT_TRUE(world.Waited().empty());
     world.MoveOn();
     EXPECT_EQ(world.now(), At(7));
   }
@@ -176,9 +176,8 @@ TEST(World, AfterATakeOverItTellsWhoIsThereFromWhoIsNot) {
   silent.agents().Add(0, {1, 1, {}});
   silent.SetAlive(false, 0);
   world.TakeOver();
-  EXPECT_EQ(world.Waited(), (std::vector<Awaited>{{"simulator 1", WaitReason::kFollows},
-                                                  {"simulator 2", WaitReason::kEnded},
-                                                  {"simulator 2", WaitReason::kMissing}}));
+  EXPECT_EQ(world.Waited(), (std::vector<Awaited>{{"simulator 1", WaitReason::kDoesNotFollowYet},
+                                                  {"simulator 2", WaitReason::kEnded}}));
 }
 
 // Goal:   grants follow the least clearance, give at least Δt, at most grant_ahead_max, and are

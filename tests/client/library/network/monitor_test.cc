@@ -9,22 +9,12 @@
 
 #include "client/library/network/conversion.h"
 #include "client/library/network/transport.h"
+#include "tests/client/fake_receiver.h"
 
 namespace collision::client {
 namespace {
 
 using std::chrono::nanoseconds;
-
-/// Delivers once what the test has put into `next`.
-class ScriptedReceiver : public Receiver {
- public:
-  explicit ScriptedReceiver(Arrivals* next) : next_(next) {}
-  void Receive(nanoseconds, Arrivals* arrivals) override { *arrivals = std::exchange(*next_, {}); }
-  bool service_alive() const override { return true; }
-
- private:
-  Arrivals* next_;
-};
 
 void SetId(v1::AgentId* id, std::uint32_t slot) {
   id->set_simulator_id(5);
@@ -38,7 +28,7 @@ constexpr AgentId IdOf(std::uint32_t slot) { return {5, 7, slot, 3}; }
 class MonitorTest : public testing::Test {
  protected:
   std::size_t Poll(const Monitor::Callbacks& callbacks) {
-    return Monitor(std::make_unique<ScriptedReceiver>(&next_), callbacks).Poll(nanoseconds(0));
+    return Monitor(std::make_unique<FakeReceiver>(&next_), callbacks).Poll(nanoseconds(0));
   }
 
   Arrivals next_;

@@ -85,79 +85,83 @@ class TimedTransport : public FakeTransport {
   const std::chrono::nanoseconds& now_;
 };
 
-void Say(std::uint64_t service, FakeNetwork* network, bool followed = true) {
-  v1::ServiceStatus& status = *network->arriving.emplace_back().mutable_service_status();
-  status.set_phase(v1::PHASE_SERVING);
-  status.mutable_stamp()->set_service_id(service);
-  status.mutable_stamp()->set_term(1);
-  status.mutable_stamp()->set_sequence(100);
-  status.set_followers(followed ? 1 : 0);
-}
+class OtherServicesTest : public testing::Test {
+ protected:
+  auto Transport() { return std::make_unique<TimedTransport>(network_, &now_); }
 
-void End(std::uint64_t service, FakeNetwork* network) {
-  v1::ServiceHeard& heard = *network->heard.emplace_back().mutable_service_heard();
-  heard.set_service_id(service);
-  heard.set_ended(true);
-}
+  World Connect() {
+    return World::Connect({.simulator = kSimulator, .run = kRun, .incarnation = kIncarnation},
+                          Transport());
+  }
+
+  void Say(std::uint64_t service, std::uint32_t term = 1, bool followed = true) {
+    v1::ServiceStatus& status = *network_->arriving.emplace_back().mutable_service_status();
+    status.set_phase(v1::PHASE_SERVING);
+    status.mutable_stamp()->set_service_id(service);
+    status.mutable_stamp()->set_term(term);
+    status.mutable_stamp()->set_sequence(100);
+    status.set_followers(followed ? 1 : 0);
+  }
+
+  void End(std::uint64_t service) {
+    v1::ServiceHeard& heard = *network_->heard.emplace_back().mutable_service_heard();
+    heard.set_service_id(service);
+    heard.set_ended(true);
+  }
+
+  const std::shared_ptr<FakeNetwork> network_ = std::make_shared<FakeNetwork>();
+  std::chrono::nanoseconds now_ = 100s;
+};
 
 // The service is started again at once, in the same term, with a higher id: the one before it is in
 // force until it has been silent for 2 s.
-TEST(OtherServices, AGrantOfTheNextServiceCountsWhenThatComesIntoForce) {
-  const auto network = std::make_shared<FakeNetwork>();
-  std::chrono::nanoseconds now = 100s;
-  World world = World::Connect({.simulator = kSimulator, .run = kRun, .incarnation = kIncarnation},
-                               std::make_unique<TimedTransport>(network, &now));
-  Say(1, network.get());
+TEST_F(OtherServicesTest, AGrantOfTheNextServiceCountsWhenThatComesIntoForce) {
+  World world = Connect();
+  Say(1);
   EXPECT_EQ(world.AdvanceTo(0, 0ns), Advance::kReached);
-  now += 1s;
-  network->Grant(5);
-  network->arriving.back().mutable_clearance()->mutable_stamp()->set_service_id(2);
+  now_ += 1s;
+  network_->Grant(5);
+  network_->arriving.back().mutable_clearance()->mutable_stamp()->set_service_id(2);
   world.Poll();
   EXPECT_NE(world.granted_until_ns(), 5);
-  now += 2s;
-  Say(2, network.get());
+  now_ += 2s;
+  Say(2);
   world.Poll();
   EXPECT_EQ(world.granted_until_ns(), 5);
 }
 
-TEST(OtherServices, AMonitorHearsTheContactsOfTheNextService) {
-  const auto network = std::make_shared<FakeNetwork>();
-  std::chrono::nanoseconds now = 100s;
+TEST_F(OtherServicesTest, AMonitorHearsTheContactsOfTheNextService) {
   std::size_t events = 0;
   MessageMonitor::Callbacks callbacks;
   callbacks.event = [&events](const v1::CollisionEvent&) { ++events; };
-  MessageMonitor monitor(std::make_unique<TimedTransport>(network, &now), callbacks);
-  Say(1, network.get());
+  MessageMonitor monitor(Transport(), callbacks);
+  Say(1);
   monitor.Poll(0ns);
-  now += 1s;
-  network->arriving.push_back(ContactOf(2, 1));
-  network->arriving.back().mutable_collision_event()->mutable_stamp()->set_term(1);
+  now_ += 1s;
+  network_->arriving.push_back(ContactOf(2, 1));
+  network_->arriving.back().mutable_collision_event()->mutable_stamp()->set_term(1);
   monitor.Poll(0ns);
   EXPECT_EQ(events, 0u);
-  now += 2s;
-  Say(2, network.get());
+  now_ += 2s;
+  Say(2);
   monitor.Poll(0ns);
   EXPECT_EQ(events, 1u);
 }
 
 // The standby has taken over, and says nothing but its status until a simulator follows it.
-TEST(OtherServices, AStandbyIsFollowedAsSoonAsTheServiceBeforeItHasEnded) {
-  const auto network = std::make_shared<FakeNetwork>();
-  std::chrono::nanoseconds now = 100s;
-  World world = World::Connect({.simulator = kSimulator, .run = kRun, .incarnation = kIncarnation},
-                               std::make_unique<TimedTransport>(network, &now));
-  Say(1, network.get());
+TEST_F(OtherServicesTest, AStandbyIsFollowedAsSoonAsTheServiceBeforeItHasEnded) {
+  World world = Connect();
+  Say(1);
   EXPECT_EQ(world.AdvanceTo(0, 0ns), Advance::kReached);
   world.AdvanceTo(1, 0ns);
-  ASSERT_FALSE(network->Clocks().empty());
-  Say(2, network.get(), false);
-  network->arriving.back().mutable_service_status()->mutable_stamp()->set_term(2);
+  ASSERT_FALSE(network_->Clocks().empty());
+  Say(2, 2, false);
   world.Poll();
-  EXPECT_EQ(network->Clocks().back().service_id(), 1u);
-  End(1, network.get());
+  EXPECT_EQ(network_->Clocks().back().service_id(), 1u);
+  End(1);
   world.Poll();
-  EXPECT_EQ(network->Clocks().back().service_id(), 2u) << "at once: its status has come before";
-  EXPECT_EQ(network->Clocks().back().service_term(), 2u);
+  EXPECT_EQ(network_->Clocks().back().service_id(), 2u) << "at once: its status has come before";
+  EXPECT_EQ(network_->Clocks().back().service_term(), 2u);
 }
 
 }  // namespace

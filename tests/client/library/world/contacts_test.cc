@@ -6,6 +6,7 @@
 #include "client/library/network/clearance_gate.h"
 #include "client/library/network/message_monitor.h"
 #include "idl/limits.h"
+#include "tests/client/fake_receiver.h"
 #include "tests/client/fake_transport.h"
 
 namespace collision::client {
@@ -171,17 +172,6 @@ TEST_F(ContactsTest, AClearanceOfAFormerServiceDoesNotPassLater) {
   EXPECT_EQ(world_.granted_until_ns(), 20);
 }
 
-/// Hands over what the test has put into `next`.
-class ScriptedReceiver : public Receiver {
- public:
-  explicit ScriptedReceiver(Arrivals* next) : next_(next) {}
-  void Receive(nanoseconds, Arrivals* arrivals) override { *arrivals = std::exchange(*next_, {}); }
-  bool service_alive() const override { return true; }
-
- private:
-  Arrivals* next_;
-};
-
 class MonitorContactsTest : public testing::Test {
  protected:
   void Status(std::uint64_t service, std::uint32_t term, std::uint64_t contacts) {
@@ -202,7 +192,7 @@ class MonitorContactsTest : public testing::Test {
   std::vector<std::uint64_t> events_;
   std::size_t statuses_ = 0;
   MessageMonitor monitor_{
-      std::make_unique<ScriptedReceiver>(&next_),
+      std::make_unique<FakeReceiver>(&next_),
       {.event = [this](const auto& event) { events_.push_back(event.contacts_sequence()); },
        .status = [this](const auto&) { ++statuses_; }}};
 };

@@ -5,24 +5,11 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 
 #include "client/programs/shared/world_view.h"
+#include "tests/client/fake_receiver.h"
 
 namespace collision::client {
-
-/// Hands over inputs and outputs once.
-class FakeReceiver : public Receiver {
- public:
-  explicit FakeReceiver(Arrivals* next) : next_(next) {}
-  void Receive(std::chrono::nanoseconds, Arrivals* arrivals) override {
-    *arrivals = std::exchange(*next_, {});
-  }
-  bool service_alive() const override { return true; }
-
- private:
-  Arrivals* next_;
-};
 
 class CollisionctlTest : public testing::Test {
  protected:

@@ -8,21 +8,10 @@
 
 #include "client/programs/tools/collisionctl/json_pages.h"
 #include "client/programs/tools/collisionctl/text_pages.h"
+#include "tests/client/fake_receiver.h"
 
 namespace collision::client {
 namespace {
-
-class HandedOver : public Receiver {
- public:
-  explicit HandedOver(Arrivals* next) : next_(next) {}
-  void Receive(std::chrono::nanoseconds, Arrivals* arrivals) override {
-    *arrivals = std::exchange(*next_, {});
-  }
-  bool service_alive() const override { return true; }
-
- private:
-  Arrivals* next_;
-};
 
 class GoneAgentsTest : public testing::Test {
  protected:
@@ -90,7 +79,7 @@ class GoneAgentsTest : public testing::Test {
   std::uint32_t epoch_ = 1;
   Arrivals next_;
   WorldView view_;
-  MessageMonitor monitor_{std::make_unique<HandedOver>(&next_), view_.Callbacks()};
+  MessageMonitor monitor_{std::make_unique<FakeReceiver>(&next_), view_.Callbacks()};
 };
 
 TEST_F(GoneAgentsTest, OneThatWasNeverDescribedHereIsShownBySimulatorAndSlot) {
