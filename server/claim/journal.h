@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -90,6 +91,15 @@ class Journal {
   std::vector<std::size_t> spoilt_;  ///< Of these, those that are left out, until SetTerm().
   std::vector<std::string> damage_;
   std::string error_;
+};
+
+/// How a service gets its journal.
+struct JournalParts {
+  Journal* journal = nullptr;  ///< Null: there is none, or not yet. It outlives what uses it.
+  /// Opens it when this service takes over, if another one has it until then. Throws JournalInUse
+  /// as long as that one has it, std::runtime_error if it cannot be opened. Null: not wanted.
+  std::function<Journal*()> open = nullptr;
+  std::string failure = {};  ///< Why there is none, if one was wanted.
 };
 
 }  // namespace collision::server

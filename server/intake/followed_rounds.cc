@@ -18,9 +18,9 @@ Instant TimeOf(const v1::Input& input) {
   return latest;
 }
 
-bool IsOf(const v1::Input& input, std::uint64_t simulator) {
-  return input.has_simulator_clock() ? input.simulator_clock().simulator_id() == simulator
-                                     : input.agent_states().simulator_id() == simulator;
+std::uint64_t SimulatorOf(const v1::Input& input) {
+  return input.has_simulator_clock() ? input.simulator_clock().simulator_id()
+                                     : input.agent_states().simulator_id();
 }
 
 }  // namespace
@@ -38,22 +38,37 @@ Instant FollowedRounds::RoundEnd() const {
 
 void FollowedRounds::Apply(const v1::Input& input) {
   const Instant time = TimeOf(input);
-  const std::size_t bytes = input.ByteSizeLong();
-  const bool full = kept_.size() >= kKeptMax || kept_bytes_ + bytes > kKeptBytesMax;
-  if (time <= RoundEnd() || full || !IsOfLockStep(input)) return intake_.Apply(input);
-  kept_.push_back(input);
-  kept_bytes_ += bytes;
+  Simulator* const simulator = time > RoundEnd() ? FindFollower(input) : nullptr;
+  if (simulator == nullptr || !Keep(simulator->id(), input)) return intake_.Apply(input);
   if (!input.has_simulator_clock()) return;
-  world_.HearGranted(time);
+  world_.HearClock(simulator, time);
   intake_.NoteFollower(input.simulator_clock());
 }
 
-/// Others have no grant that could be waited for.
-bool FollowedRounds::IsOfLockStep(const v1::Input& input) const {
-  const Simulator* const simulator =
-      world_.Find(input.has_simulator_clock() ? input.simulator_clock().simulator_id()
-                                              : input.agent_states().simulator_id());
-  return simulator != nullptr && simulator->holds_time() && simulator->time().lock_step();
+/// The simulator in lock-step of which this program speaks; null: there is none. Others have no
+/// grant that could be waited for.
+Simulator* FollowedRounds::FindFollower(const v1::Input& input) {
+  Simulator* const simulator = world_.Find(SimulatorOf(input));
+  const bool follows = simulator != nullptr && simulator->sender() == input.sender() &&
+                       simulator->holds_time() && simulator->time().lock_step();
+  return follows ? simulator : nullptr;
+}
+
+bool FollowedRounds::Keep(std::uint64_t simulator, const v1::Input& input) {
+  const std::size_t bytes = input.ByteSizeLong();
+  if (count_ >= kKeptMax || bytes_ + bytes > kKeptBytesMax) return false;
+  const auto found = kept_.find(simulator);
+  if (found != kept_.end() && (found->second.inputs.size() >= kKeptOfOneMax ||
+                               found->second.bytes + bytes > kKeptBytesOfOneMax)) {
+    return false;
+  }
+  Kept& kept = kept_[simulator];
+  kept.inputs.push_back(input);
+  kept.bytes += bytes;
+  kept.first = std::min(kept.first, TimeOf(input));
+  ++count_;
+  bytes_ += bytes;
+  return true;
 }
 
 void FollowedRounds::ApplyKept() {
@@ -69,41 +84,50 @@ void FollowedRounds::ApplyKept() {
 
 void FollowedRounds::TakeRound() {
   const Instant end = RoundEnd();
-  for (v1::Input& input : std::exchange(kept_, {})) {
-    if (TimeOf(input) <= end) {
-      TakeOut(input);
-    } else {
-      kept_.push_back(std::move(input));
-    }
+  for (auto& [id, kept] : kept_) {
+    if (kept.first > end) continue;
+    Take(&kept, [end](const v1::Input& input) { return TimeOf(input) <= end; });
   }
-}
-
-void FollowedRounds::TakeOut(const v1::Input& input) {
-  kept_bytes_ -= input.ByteSizeLong();
-  intake_.Apply(input);
+  std::erase_if(kept_, [](const auto& of_one) { return of_one.second.inputs.empty(); });
 }
 
 /// Applies what was kept of the simulator up to and with its first clock.
 void FollowedRounds::TakeToClock(std::uint64_t simulator) {
-  const auto clock = std::find_if(kept_.begin(), kept_.end(), [&](const v1::Input& input) {
-    return input.has_simulator_clock() && IsOf(input, simulator);
+  const auto found = kept_.find(simulator);
+  if (found == kept_.end()) return;
+  const std::deque<v1::Input>& inputs = found->second.inputs;
+  const auto clock = std::find_if(inputs.begin(), inputs.end(), [](const v1::Input& input) {
+    return input.has_simulator_clock();
   });
-  if (clock == kept_.end()) return;
-  auto taken = static_cast<std::size_t>(clock - kept_.begin()) + 1;
-  for (v1::Input& input : std::exchange(kept_, {})) {
-    const bool is_before = taken > 0;
-    taken -= is_before ? 1 : 0;
-    if (is_before && IsOf(input, simulator)) {
-      TakeOut(input);
-    } else {
-      kept_.push_back(std::move(input));
+  if (clock == inputs.end()) return;
+  std::ptrdiff_t left = clock - inputs.begin() + 1;
+  Take(&found->second, [&left](const v1::Input&) { return left-- > 0; });
+  if (found->second.inputs.empty()) kept_.erase(found);
+}
+
+/// Applies those for which `is_taken` is true, asked once of each in their order.
+template <typename Predicate>
+void FollowedRounds::Take(Kept* kept, const Predicate& is_taken) {
+  count_ -= kept->inputs.size();
+  bytes_ -= kept->bytes;
+  Kept left;
+  for (v1::Input& input : kept->inputs) {
+    if (is_taken(input)) {
+      intake_.Apply(input);
+      continue;
     }
+    left.bytes += input.ByteSizeLong();
+    left.first = std::min(left.first, TimeOf(input));
+    left.inputs.push_back(std::move(input));
   }
+  *kept = std::move(left);
+  count_ += kept->inputs.size();
+  bytes_ += kept->bytes;
 }
 
 void FollowedRounds::Clear() {
   kept_.clear();
-  kept_bytes_ = 0;
+  count_ = bytes_ = 0;
 }
 
 }  // namespace collision::server

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <vector>
+#include <map>
 
 #include "idl/messages.pb.h"
 #include "server/intake/intake.h"
@@ -21,6 +21,10 @@ class FollowedRounds {
   /// Beyond it nothing more is kept: rounds are judged together, which makes brackets wider.
   static constexpr std::size_t kKeptMax = 65536;
   static constexpr std::size_t kKeptBytesMax = 64 << 20;
+
+  /// Likewise of one simulator, whose messages may be of times that never come.
+  static constexpr std::size_t kKeptOfOneMax = kKeptMax / 8;
+  static constexpr std::size_t kKeptBytesOfOneMax = kKeptBytesMax / 8;
 
   /// Both outlive this.
   FollowedRounds(World* world, Intake* intake) : world_(*world), intake_(*intake) {}
@@ -39,16 +43,25 @@ class FollowedRounds {
   void Clear();
 
  private:
+  /// Of one simulator, in the order in which they arrived.
+  struct Kept {
+    std::deque<v1::Input> inputs;
+    std::size_t bytes = 0;
+    Instant first = Instant::Never();  ///< No input tells of an earlier time.
+  };
+
   Instant RoundEnd() const;
-  bool IsOfLockStep(const v1::Input& input) const;
+  Simulator* FindFollower(const v1::Input& input);
+  bool Keep(std::uint64_t simulator, const v1::Input& input);
   void TakeRound();
-  void TakeOut(const v1::Input& input);
   void TakeToClock(std::uint64_t simulator);
+  template <typename Predicate>
+  void Take(Kept* kept, const Predicate& is_taken);
 
   World& world_;
   Intake& intake_;
-  std::deque<v1::Input> kept_;
-  std::size_t kept_bytes_ = 0;
+  std::map<std::uint64_t, Kept> kept_;  ///< By simulator; none is empty.
+  std::size_t count_ = 0, bytes_ = 0;   ///< Of all.
   bool follows_ = false;
 };
 

@@ -27,8 +27,7 @@ detection::AgentId IdOf(const v1::AgentId& wire);
 /// that began before a service knew its pair is the one that was in progress then. The standby goes
 /// on with the numbers that readers know.
 ///
-/// All of it is of one epoch: times and numbers begin anew with the next one. A contact that the
-/// other service has found in an epoch that is over, and not published, is not told any more.
+/// All of it is of one epoch: times and numbers begin anew with the next one.
 ///
 /// Depends on nothing but the calls. Amortised O(log pairs) for each event, and for each contact of
 /// its pair that readers do not know; at most 2 kPairsMax pairs and

@@ -124,10 +124,13 @@ void Publisher::Hear(const v1::Input& input) {
 }
 
 void Publisher::PublishInherited(const World& world) {
+  for (auto& [epoch, contact] : std::exchange(unheard_, {})) {
+    PublishContact(std::move(contact), epoch);
+  }
   std::set<std::pair<detection::AgentId, detection::AgentId>> told;
   for (v1::CollisionEvent& contact : inherited_.TakeTold()) {
     told.insert({IdOf(contact.lower()), IdOf(contact.higher())});
-    PublishContact(std::move(contact));
+    PublishContact(std::move(contact), epoch_);
   }
   for (const detection::CollisionEvent& contact : inherited_.TakeUntold()) {
     told.insert({contact.lower, contact.higher});
@@ -139,10 +142,16 @@ void Publisher::PublishInherited(const World& world) {
   }
 }
 
+v1::CollisionEvent Publisher::ForReaders(const detection::CollisionEvent& event,
+                                         const World& world) {
+  v1::CollisionEvent wire = Encode(event, world.ended_runs());
+  wire.set_contact(inherited_.NumberOf(event));
+  return wire;
+}
+
 void Publisher::Publish(const Telling& telling, const World& world) {
-  v1::CollisionEvent event = Encode(telling.event, world.ended_runs());
-  event.set_contact(inherited_.NumberOf(telling.event));
-  if (telling.contact) return PublishContact(std::move(event));
+  v1::CollisionEvent event = ForReaders(telling.event, world);
+  if (telling.contact) return PublishContact(std::move(event), epoch_);
   ++events_.forecasts;
   *event.mutable_stamp() = NextStamp();
   newest_forecast_ = event.stamp().sequence();
@@ -151,11 +160,12 @@ void Publisher::Publish(const Telling& telling, const World& world) {
   bus_.Publish(output);
 }
 
-void Publisher::PublishContact(v1::CollisionEvent event) {
+void Publisher::PublishContact(v1::CollisionEvent event, std::uint32_t epoch) {
   // One instance holds the history of all contacts.
   event.set_pair_slot(0);
   event.set_contacts_sequence(++events_.contacts);
   *event.mutable_stamp() = NextStamp();
+  event.mutable_stamp()->set_epoch(epoch);
   v1::Output output;
   *output.mutable_collision_event() = std::move(event);
   bus_.Publish(output);
@@ -209,7 +219,16 @@ void Publisher::PublishReports(std::vector<v1::SimulatorReport> reports) {
   }
 }
 
-void Publisher::BeginEpoch(std::uint32_t epoch) {
+void Publisher::BeginEpoch(std::uint32_t epoch, const World& world) {
+  if (claim_.phase() == ClaimPhase::kServing && !claim_.speaks()) {
+    for (v1::CollisionEvent& contact : inherited_.TakeTold()) {
+      unheard_.emplace_back(epoch_, std::move(contact));
+    }
+    for (const detection::CollisionEvent& contact : inherited_.TakeUntold()) {
+      unheard_.emplace_back(epoch_, ForReaders(contact, world));
+    }
+    while (unheard_.size() > InheritedEvents::kUntoldMax) unheard_.pop_front();
+  }
   epoch_ = epoch;
   earliest_.reset();
   filter_.Forget();

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "idl/config.pb.h"
@@ -63,8 +65,9 @@ class Publisher {
 
   void PublishReports(std::vector<v1::SimulatorReport> reports);
 
-  /// What is published from here on belongs to this epoch.
-  void BeginEpoch(std::uint32_t epoch);
+  /// What is published from here on belongs to this epoch. Contacts of the one that is over which
+  /// nobody has heard of, since this service does not speak yet, are told when it does.
+  void BeginEpoch(std::uint32_t epoch, const World& world);
 
   EventCounters event_counters() const;
 
@@ -77,7 +80,8 @@ class Publisher {
   std::vector<Telling> Filter(const std::vector<detection::CollisionEvent>& events,
                               const World& world);
   void Publish(const Telling& telling, const World& world);
-  void PublishContact(v1::CollisionEvent event);
+  v1::CollisionEvent ForReaders(const detection::CollisionEvent& event, const World& world);
+  void PublishContact(v1::CollisionEvent event, std::uint32_t epoch);
   void PublishChunk(const World& world, Simulator* to, std::uint32_t chunk);
 
   const ServiceClaim& claim_;
@@ -89,6 +93,7 @@ class Publisher {
   EventLog event_log_;
   EventFilter filter_;
   InheritedEvents inherited_;
+  std::deque<std::pair<std::uint32_t, v1::CollisionEvent>> unheard_;  ///< With their epochs.
   EventCounters events_;
   const std::int64_t earliest_period_ns_;
   std::uint32_t earliest_readers_ = 0;

@@ -150,7 +150,7 @@ void AddWaiting(const StatusSources& sources, v1::ServiceStatus* status) {
   }
   for (const std::string& shape : sources.intake.AwaitedShapes()) {
     names.push_back(shape);
-    reasons.push_back(shape + ": not there yet, or its tree is being built");
+    reasons.push_back(shape + ": not there yet or still being built");
   }
   AddNames("waiting_for", names, status);
   AddNames("waiting_why", reasons, status);

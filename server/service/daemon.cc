@@ -51,9 +51,8 @@ class Daemon::Implementation {
         bus_(bus),
         clock_(clock),
         recorder_(parts.recorder),
-        journal_(config_, parts.journal, std::move(parts.open_journal)),
+        journal_(config_, std::move(parts.journal)),
         quarantine_(parts.quarantine),
-        state_failure_(parts.state_failure),
         claim_(parts.claim),
         services_(config_, claim_.instance(), std::move(parts.process)),
         progress_(std::move(parts.progress)),
@@ -91,7 +90,7 @@ class Daemon::Implementation {
     bus_.Wake();
   }
 
-  const std::string& state_failure() const { return state_failure_; }
+  const std::string& state_failure() const { return journal_.failure(); }
   const ServiceClaim& claim() const { return claim_; }
   const EventLog& event_log() const { return publisher_.event_log(); }
 
@@ -126,8 +125,9 @@ class Daemon::Implementation {
     if (restarts) EndEpoch("an operator restarts time");
     if (claim_.works() && world_.EpochIsOver()) EndEpoch("no simulator holds time any more");
     intake_.EndBatch();
+    const bool serves = claim_.phase() == ClaimPhase::kServing;
+    if (serves && !journal_.Keep(world_)) return false;
     if (claim_.speaks()) {
-      if (!KeepState(journal_.Keep(world_))) return false;
       PublishAnswers();
     } else {
       static_cast<void>(rejections_.Take());
@@ -207,11 +207,13 @@ class Daemon::Implementation {
     const bool is_lonely = heard.agents() > 0 && !heard.followed();  // its own cable may be out
     if (claim_.phase() == ClaimPhase::kServing || heard.phase() != v1::PHASE_SERVING || is_lonely)
       return;
-    if (!advanced_to_ && world_.FollowEpoch(heard.epoch())) publisher_.BeginEpoch(world_.epoch());
+    if (!advanced_to_ && world_.FollowEpoch(heard.epoch()))
+      publisher_.BeginEpoch(world_.epoch(), world_);
     if (heard.epoch() == world_.epoch())
       world_.HearGranted(Instant::FromNanoseconds(heard.granted_until_ns()));
-    if (claim_.phase() != ClaimPhase::kStandby) return;
-    if (services_.HearOfWork(heard, detector_.agents(), world_.newest())) schedule_.Hasten();
+    const bool is_past = world_.simulated() && heard.epoch() < world_.epoch();
+    if (claim_.phase() != ClaimPhase::kStandby || is_past) return;
+    if (services_.HearProgress(heard, detector_.agents(), world_.newest())) schedule_.Hasten();
   }
 
   void ChangePhase(ClaimPhase before) {
@@ -241,19 +243,8 @@ class Daemon::Implementation {
 
   void BeginTerm() {
     journal_.Open();
-    KeepState(journal_.SetTerm(claim_.term(), world_.epoch(), world_.monotonic_ns()));
+    journal_.SetTerm(claim_.term(), world_.epoch(), world_.monotonic_ns());
     spdlog::info("serves world \"{}\" in term {}", config_.world(), claim_.term());
-  }
-
-  /// Tells that the journal cannot be written. False: the service is to end (on_state_failure).
-  bool KeepState(bool kept) {
-    if (kept) return true;
-    if (state_failure_.empty()) {
-      state_failure_ = journal_.error();
-      spdlog::error("{}; nothing more is kept for the next start", state_failure_);
-      schedule_.Hasten();
-    }
-    return config_.on_state_failure() != v1::Config::END;
   }
 
   /// Removes simulators that were silent for too long. False: there was none.
@@ -298,11 +289,11 @@ class Daemon::Implementation {
     advanced_to_.reset();
     rounds_.Clear();
     world_.BeginEpoch();
-    publisher_.BeginEpoch(world_.epoch());
+    publisher_.BeginEpoch(world_.epoch(), world_);
+    services_.BeginEpoch();
     schedule_.Hasten();
-    if (claim_.phase() == ClaimPhase::kServing) {
-      KeepState(journal_.SetTerm(claim_.term(), world_.epoch(), world_.monotonic_ns()));
-    }
+    if (claim_.phase() != ClaimPhase::kServing) return;
+    journal_.SetTerm(claim_.term(), world_.epoch(), world_.monotonic_ns());
   }
 
   /// Tells of each simulator that the world's time waits for, or goes on without.
@@ -399,7 +390,7 @@ class Daemon::Implementation {
     silence_report_.AddExtensions(&extensions);
     operators_.AddExtensions(&extensions);
     shares_.AddExtensions(&extensions);
-    AddText("state_failure", state_failure_ + journal_.awaited(), &extensions);
+    AddText("state_failure", journal_.failure() + journal_.awaited(), &extensions);
     AddText("recording_failure", recorder_.failure(), &extensions);
     if (quarantine_ != nullptr) AddText("quarantine", quarantine_->Summary(), &extensions);
     return extensions;
@@ -411,7 +402,6 @@ class Daemon::Implementation {
   StepRecorder recorder_;
   RosterJournal journal_;
   Quarantine* const quarantine_;  ///< Null: none.
-  std::string state_failure_;     ///< Empty: what must be kept is kept.
   ServiceClaim claim_;
   ServiceReport services_;
   const std::function<bool()> progress_;  ///< As in DaemonParts.

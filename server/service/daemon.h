@@ -23,12 +23,8 @@ struct DaemonParts {
   BatchSink* recorder = nullptr;  ///< Gets every batch before it is applied.
   std::unique_ptr<ShapeBuilder> shape_builder = nullptr;  ///< Null: shapes are built in the step
                                                           ///< after they have arrived.
-  Journal* journal = nullptr;                             ///< Keeps term, roster and grants.
-  /// Opens the journal when this service takes over, if another one has it until then. Throws
-  /// JournalInUse as long as that one has it, std::runtime_error if it cannot be opened.
-  std::function<Journal*()> open_journal = nullptr;
+  JournalParts journal = {};                              ///< Keeps term, roster and grants.
   Quarantine* quarantine = nullptr;  ///< Notes which message is applied, for the next start.
-  std::string state_failure = {};    ///< Why there is no journal, if one was wanted.
   std::string process = {};  ///< ProcessText(): its status shows it, and other services log it.
   ClaimOptions claim = {};   ///< By default it serves from the first step.
   /// Called while a step goes on, after each bounded piece of the detector's work. True: a status

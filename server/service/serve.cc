@@ -103,7 +103,7 @@ class StatusInStep {
 std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   SystemClock clock([&bus] { bus.Wake(); });
   RecordingWriter* const recorder = parts.recorder;
-  const bool has_journal_later = parts.open_journal != nullptr;
+  const bool has_journal = parts.journal.journal != nullptr || parts.journal.open != nullptr;
   BuildOptions build = BuildOptionsOf(config);
   build.cache = std::move(parts.trees);
   ServiceNotifier service_manager;
@@ -112,10 +112,8 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
       config, bus, clock,
       {.recorder = recorder,
        .shape_builder = std::make_unique<ThreadedShapeBuilder>(build, [&bus] { bus.Wake(); }),
-       .journal = parts.journal,
-       .open_journal = std::move(parts.open_journal),
+       .journal = std::move(parts.journal),
        .quarantine = parts.quarantine,
-       .state_failure = parts.state_failure,
        .process = ProcessText(),
        .claim = parts.claim,
        .progress = [&] {
@@ -128,8 +126,7 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
       [recorder, quarantine = parts.quarantine] { EndInTheStep(recorder, quarantine); });
   spdlog::info("collisiond {}, service {} ({}), claims world \"{}\" on domain {}", Version(),
                IdText(parts.claim.instance), ProcessText(), config.world(), config.domain());
-  if (parts.journal == nullptr && !has_journal_later)
-    spdlog::info("no journal: nothing is kept for the next start");
+  if (!has_journal) spdlog::info("no journal: nothing is kept for the next start");
   spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and evaluation",
                config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerEvaluation(config));
   WaitForWallClock(config, signals, &service_manager);

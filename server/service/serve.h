@@ -26,10 +26,8 @@ inline constexpr char kGoOnInstead[] =
 struct ServiceParts {
   RecordingWriter* recorder = nullptr;
   std::shared_ptr<TreeStore> trees = nullptr;
-  Journal* journal = nullptr;
-  std::function<Journal*()> open_journal = nullptr;  ///< As in DaemonParts.
+  JournalParts journal = {};
   Quarantine* quarantine = nullptr;
-  std::string state_failure = {};  ///< As in DaemonParts.
   ClaimOptions claim = {};
 };
 

@@ -40,7 +40,8 @@ void ServiceReport::Hear(const v1::ServiceHeard& heard, std::int64_t now_ns) {
   }
 }
 
-bool ServiceReport::HearOfWork(const v1::ServiceHeard& heard, std::size_t agents, Instant newest) {
+bool ServiceReport::HearProgress(const v1::ServiceHeard& heard, std::size_t agents,
+                                 Instant newest) {
   if (!readiness_.Hear(heard, agents, newest)) return false;
   spdlog::info("is ready to take over");
   return true;

@@ -28,7 +28,10 @@ class ServiceReport {
 
   /// This one stands by beside the service whose status that is (StandbyReadiness::Hear()). True:
   /// it is ready to take over from now on, which is logged.
-  bool HearOfWork(const v1::ServiceHeard& heard, std::size_t agents, Instant newest);
+  bool HearProgress(const v1::ServiceHeard& heard, std::size_t agents, Instant newest);
+
+  /// Time begins anew: of what the other service has not told, nothing is known yet.
+  void BeginEpoch() { readiness_ = {}; }
 
   /// Writes what is new, and ServiceClaim::Conflicts().
   void Write(const std::vector<std::string>& conflicts, std::int64_t now_ns);

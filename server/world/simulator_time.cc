@@ -60,7 +60,7 @@ Instant SimulatorTime::told_until() const {
 }
 
 void SimulatorTime::Restart() {
-  newest_ = Instant::Always();
+  newest_ = heard_ = Instant::Always();
   pending_.clear();
   first_clock_.reset();
   clock_.reset();

@@ -1,6 +1,7 @@
 // The clocks of one simulator: which have arrived, which is in force, and how far it may go.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -47,6 +48,9 @@ class SimulatorTime {
   /// described.
   void TellPresence(std::uint64_t descriptions_sequence, std::uint32_t agents);
 
+  /// A clock has arrived that is taken in a later round (FollowedRounds).
+  void Hear(Instant clock) { heard_ = std::max(heard_, clock); }
+
   /// Takes a clock that has arrived; Take() brings it into force.
   void Offer(const PendingClock& offered);
 
@@ -84,6 +88,7 @@ class SimulatorTime {
   void Restart();
 
   Instant newest() const { return newest_; }  ///< The newest clock that has arrived; else Always().
+  Instant heard() const { return std::max(newest_, heard_); }     ///< Likewise, taken yet or not.
   const std::optional<Instant>& clock() const { return clock_; }  ///< The newest in force.
   /// The one that this service first brought into force.
   const std::optional<Instant>& first_clock() const { return first_clock_; }
@@ -98,6 +103,7 @@ class SimulatorTime {
   std::uint64_t descriptions_arrived_ = 0;
   PendingClock offered_;  ///< The newest clock that has arrived.
   Instant newest_ = Instant::Always();
+  Instant heard_ = Instant::Always();
   std::deque<PendingClock> pending_;
   std::optional<Instant> first_clock_;
   std::optional<Instant> clock_;

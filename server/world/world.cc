@@ -221,10 +221,14 @@ std::optional<std::int64_t> World::NextRelease() const {
 
 Instant World::NewestClock() const {
   Instant newest = Instant::Always();
+  Instant slowest = Instant::Never();
   for (const auto& [id, simulator] : simulators_) {
-    newest = std::max(newest, simulator.time().newest());
+    const Instant heard = simulator.time().heard();
+    newest = std::max(newest, heard);
+    if (simulator.alive() && simulator.holds_time()) slowest = std::min(slowest, heard);
   }
-  return newest;
+  if (slowest.is_never()) return newest;
+  return std::min(newest, numeric::AddRoundedUp(slowest, grant_ahead_max_));
 }
 
 /// A grant is at most `grant_ahead_max_s` ahead of now, and now never ahead of a clock that the
@@ -241,6 +245,11 @@ void World::StandBy() {
   // Whether time waits for those that our journal misses is for the service in force to decide.
   if (!stands_by_) silence_.roster().GiveUpAll();
   stands_by_ = true;
+}
+
+void World::HearClock(Simulator* simulator, Instant clock) {
+  simulator->time().Hear(clock);
+  HearGranted(NewestClock());
 }
 
 void World::HearGranted(Instant granted) {

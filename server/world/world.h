@@ -172,9 +172,11 @@ class World {
 
   bool stands_by() const { return stands_by_; }
 
-  /// Another service has granted so much in this epoch: that is its word, or a clock that a
-  /// simulator has told.
+  /// Another service has granted so much in this epoch, as its status says.
   void HearGranted(Instant granted);
+
+  /// So has a clock of this simulator that is taken in a later round.
+  void HearClock(Simulator* simulator, Instant clock);
 
   /// This service serves from now on, in place of the one beside which it stood by. Simulated
   /// clock: time stands until each simulator that lives and holds time has told a clock that

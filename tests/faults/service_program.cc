@@ -45,7 +45,7 @@ void ServiceProgram::Start() {
   }
   daemon_ = std::make_unique<server::Daemon>(
       config_, *bus_, static_cast<server::Clock&>(*this),
-      server::DaemonParts{.journal = journal_.get(), .claim = claim});
+      server::DaemonParts{.journal = {.journal = journal_.get()}, .claim = claim});
   awaits_ = false;
   Wake(network_.now_ns());
 }

@@ -50,8 +50,11 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
     }
   };
   callbacks.standby = [this](const v1::ServiceStatus& status) {
+    const auto now = std::chrono::steady_clock::now();
+    std::erase_if(standbys_,
+                  [now](const auto& one) { return now - one.second.heard > kStandbySilence; });
     if (standbys_.size() >= kStandbysMax && !standbys_.contains(status.service_id())) return;
-    standbys_[status.service_id()] = {status, std::chrono::steady_clock::now()};
+    standbys_[status.service_id()] = {status, now};
   };
   // A report outlives its simulator: it names what has left before this monitor came.
   callbacks.report = [this](const v1::SimulatorReport& report) {

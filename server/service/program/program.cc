@@ -183,10 +183,10 @@ std::optional<int> ServeOnce(const v1::Config& config, const std::string& record
   return Serve(config, *bus,
                {.recorder = recorder.get(),
                 .trees = std::move(cache),
-                .journal = journal.get(),
-                .open_journal = std::move(open_journal),
+                .journal = {.journal = journal.get(),
+                            .open = std::move(open_journal),
+                            .failure = std::move(state_failure)},
                 .quarantine = quarantine.get(),
-                .state_failure = std::move(state_failure),
                 .claim = claim});
 }
 

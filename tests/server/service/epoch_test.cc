@@ -7,67 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
+#include "tests/server/service/voyage.h"
 
 namespace collision::server {
 namespace {
 
-constexpr std::int64_t kTenth = 100'000'000;  ///< [ns] The step of the simulator.
-constexpr int kSteps = 10;
-
-v1::Config Config(v1::Clock::OnSilent on_silent = v1::Clock::WAIT) {
-  v1::Config config = Simulated();
-  config.set_temporal_resolution_s(0.1);
-  config.mutable_clock()->set_on_silent_simulator(on_silent);
-  if (on_silent == v1::Clock::RELEASE) config.mutable_clock()->set_release_after_s(0.5);
-  return config;
-}
-
-/// One run of one simulator with two agents that touch from 0.4 to 0.6 s after its first clock.
-struct Voyage {
-  std::string simulator = "alpha";
-  std::uint64_t sender = 1;
-  std::uint32_t run = 1;
-  std::int64_t first_clock_ns = 0;
-
-  v1::AgentState StateOf(std::uint32_t slot, int step) const {
-    const std::int64_t stamp_ns = first_clock_ns + step * kTenth;
-    v1::AgentState state = State(slot, stamp_ns, 2 * static_cast<std::uint64_t>(step) + slot + 1);
-    const double direction = slot == 0 ? 1 : -1;
-    state.mutable_position_m()->set_x(direction * (-5 + step));
-    state.mutable_velocity_m_s()->set_x(direction * 10);
-    return state;
-  }
-
-  std::vector<v1::Input> Told(int step) const {
-    std::vector<v1::Input> inputs;
-    for (std::uint32_t slot : {0, 1}) {
-      if (step == 0) inputs.push_back(From(sender, Description(simulator, slot, run)));
-      inputs.push_back(From(sender, StateOf(slot, step), simulator, run));
-    }
-    v1::SimulatorClock clock = ClockAfter(simulator, first_clock_ns + step * kTenth,
-                                          2 * static_cast<std::uint64_t>(step) + 2, 2);
-    clock.set_run(run);
-    inputs.push_back(From(sender, clock));
-    return inputs;
-  }
-
-  std::vector<v1::Input> Removals() const {
-    return {Removal(sender, simulator, 0), Removal(sender, simulator, 1)};
-  }
-  v1::Input End() const { return Liveliness(sender, simulator, false); }
-};
-
-std::vector<v1::Input> Joined(std::vector<v1::Input> a, const std::vector<v1::Input>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 class EpochTest : public testing::Test {
  protected:
   explicit EpochTest(v1::Clock::OnSilent on_silent = v1::Clock::WAIT)
-      : daemon_(Config(on_silent)) {}
+      : daemon_(VoyageConfig(on_silent)) {}
 
   /// From the step `first` to the last.
   void Fly(const Voyage& run, int first = 0) {
@@ -204,91 +153,6 @@ TEST_F(EpochTest, AnEpochMayBeginAtAnyTime) {
   run = {.sender = 2, .run = 2, .first_clock_ns = 1'000'000'000};
   Fly(run);
   EXPECT_EQ(daemon_.clearance(SimulatorId("alpha")).now_ns(), 2'000'000'000);
-}
-
-// Readers and standbys compare epochs of different services.
-TEST(EpochOfAStandby, IsThatOfTheServiceBesideIt) {
-  ScriptedDaemon daemon(Config(), {.claim = {.instance = 2, .stands_by = true}});
-  const auto hear = [&](std::uint32_t epoch, std::uint64_t sequence) {
-    v1::Input input;
-    v1::ServiceHeard& heard = *input.mutable_service_heard();
-    heard.set_service_id(1);
-    heard.set_term(1);
-    heard.set_phase(v1::PHASE_SERVING);
-    heard.set_epoch(epoch);
-    heard.set_sequence(sequence);
-    daemon.Step({input});
-  };
-  hear(3, 1);
-  EXPECT_EQ(daemon.status().phase(), v1::PHASE_STANDBY);
-  EXPECT_EQ(daemon.status().stamp().epoch(), 3u);
-  hear(4, 2);
-  EXPECT_EQ(daemon.status().stamp().epoch(), 4u) << "before time begins";
-  hear(2, 3);
-  EXPECT_EQ(daemon.status().stamp().epoch(), 4u);
-  const Voyage run;
-  daemon.Step(run.Told(0), 0.01);
-  hear(9, 4);
-  EXPECT_EQ(daemon.status().stamp().epoch(), 4u) << "its own time has begun";
-}
-
-// Goal:   what the other service granted in an epoch that is over holds nobody in the next one.
-TEST(EpochOfAStandby, GrantsOfAnEpochThatIsOverDoNotCount) {
-  ScriptedDaemon daemon(Config(), {.claim = {.instance = 2, .stands_by = true}});
-  v1::Input heard;
-  v1::ServiceHeard& service = *heard.mutable_service_heard();
-  service.set_service_id(1);
-  service.set_term(1);
-  service.set_phase(v1::PHASE_SERVING);
-  service.set_epoch(1);
-  service.set_granted_until_ns(1000 * 1'000'000'000LL);
-  Voyage run;
-  daemon.Step({heard});
-  daemon.Step(run.Told(0), 0.01);
-  daemon.Step(Joined(run.Removals(), {run.End()}), 0.01);
-  ASSERT_EQ(daemon.status().stamp().epoch(), 2u);
-  run = {.sender = 2, .run = 2};
-  daemon.Step(run.Told(0), 0.01);
-  service.set_sequence(2);  // of the old epoch, and late
-  daemon.Step({heard}, 0.01);
-  service.set_ended(true);
-  daemon.Step({heard}, 0.01);
-  std::vector<v1::Input> told = run.Told(0);
-  for (v1::Input& input : told) {
-    if (input.has_simulator_clock()) input.mutable_simulator_clock()->set_service_id(2);
-  }
-  daemon.Step(told, 0.01);
-  const v1::Clearance clearance = daemon.clearance(SimulatorId("alpha"));
-  ASSERT_GT(clearance.agents_size(), 0);
-  EXPECT_LT(clearance.agents(0).effective_from_ns(), 100 * 1'000'000'000LL);
-}
-
-// What a standby says whose own cable was out would be wrong.
-TEST(ATakeOver, IsSilentButForItsStatusUntilASimulatorFollowsIt) {
-  ScriptedDaemon daemon(Config(), {.claim = {.instance = 2, .stands_by = true}});
-  v1::Input heard;
-  heard.mutable_service_heard()->set_service_id(1);
-  heard.mutable_service_heard()->set_term(1);
-  heard.mutable_service_heard()->set_phase(v1::PHASE_SERVING);
-  daemon.Step({heard});
-  const Voyage run;
-  daemon.Step(run.Told(0), 0.01);
-  heard.mutable_service_heard()->set_ended(true);
-  daemon.Step({heard}, 0.01);
-  EXPECT_EQ(daemon.status().phase(), v1::PHASE_SERVING);
-  EXPECT_EQ(daemon.status().followers(), 0u);
-  const auto says_more_than_its_status = [&] {
-    return std::any_of(daemon.bus().outputs.begin(), daemon.bus().outputs.end(),
-                       [](const v1::Output& output) { return !output.has_service_status(); });
-  };
-  EXPECT_FALSE(says_more_than_its_status());
-  std::vector<v1::Input> told = run.Told(0);
-  for (v1::Input& input : told) {
-    if (input.has_simulator_clock()) input.mutable_simulator_clock()->set_service_id(2);
-  }
-  daemon.Step(told, 0.01);
-  EXPECT_TRUE(says_more_than_its_status());
-  EXPECT_EQ(daemon.status().followers(), 1u);
 }
 
 }  // namespace

@@ -37,13 +37,13 @@ class RosterJournalTest : public testing::Test {
 TEST_F(RosterJournalTest, IsOpenedOnceTheServiceBeforeHasLetGo) {
   std::unique_ptr<Journal> of_the_other = OpenFile();
   std::unique_ptr<Journal> own;
-  RosterJournal journal(config_, nullptr, [&] { return (own = OpenFile()).get(); });
-  EXPECT_TRUE(journal.SetTerm(2, 1, 0));
+  RosterJournal journal(config_, {.open = [&] { return (own = OpenFile()).get(); }});
+  journal.SetTerm(2, 1, 0);
   EXPECT_EQ(journal.awaited(), "") << "it stands by";
   journal.Open();
-  EXPECT_TRUE(journal.SetTerm(3, 1, 0));
+  journal.SetTerm(3, 1, 0);
   EXPECT_NE(journal.awaited(), "");
-  EXPECT_EQ(journal.error(), "") << "no failure: the other one may stand still";
+  EXPECT_EQ(journal.failure(), "") << "no failure: the other one may stand still";
   of_the_other.reset();
   EXPECT_TRUE(KeepAt(kSecond - 1, &journal));
   EXPECT_EQ(own, nullptr);
@@ -53,12 +53,17 @@ TEST_F(RosterJournalTest, IsOpenedOnceTheServiceBeforeHasLetGo) {
   EXPECT_EQ(journal.awaited(), "");
 }
 
-TEST_F(RosterJournalTest, TellsWhyItCannotBeOpened) {
-  RosterJournal journal(config_, nullptr, []() -> Journal* { throw std::runtime_error("broken"); });
-  journal.Open();
-  EXPECT_FALSE(journal.SetTerm(3, 1, 0));
-  EXPECT_EQ(journal.error(), "broken");
-  EXPECT_FALSE(KeepAt(kSecond, &journal));
+TEST_F(RosterJournalTest, TellsWhyItCannotBeOpenedAndEndsTheServiceIfThatIsWanted) {
+  for (const bool ends : {true, false}) {
+    v1::Config config = config_;
+    config.set_on_state_failure(ends ? v1::Config::END : v1::Config::GO_ON);
+    RosterJournal journal(config,
+                          {.open = []() -> Journal* { throw std::runtime_error("broken"); }});
+    journal.Open();
+    journal.SetTerm(3, 1, 0);
+    EXPECT_EQ(journal.failure(), "broken");
+    EXPECT_EQ(KeepAt(kSecond, &journal), !ends);
+  }
 }
 
 }  // namespace

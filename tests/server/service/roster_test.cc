@@ -37,7 +37,7 @@ class RosterOfDaemonTest : public testing::Test {
     DaemonParts parts;
     if (with_journal) {
       journal_.emplace(folder_, "lab", 0, config_.simulators_max());
-      parts.journal = &*journal_;
+      parts.journal.journal = &*journal_;
       parts.claim.term_before = journal_->term();
       for (const auto& [id, one] : journal_->simulators()) parts.claim.roster.push_back(one);
     }

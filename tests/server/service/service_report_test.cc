@@ -88,7 +88,7 @@ TEST(ServiceReport, ATakeOverSaysFromWhomAndHowLongThatWasSilent) {
   EXPECT_EQ(log.Take(), why +
                             "warning was not ready to take over: what the other one had not told "
                             "may be lost\n");
-  report.HearOfWork(Heard(0xab, v1::PHASE_SERVING), 0, Instant());
+  report.HearProgress(Heard(0xab, v1::PHASE_SERVING), 0, Instant());
   log.Take();
   report.LogTakeOver(7 * kSecond);
   EXPECT_EQ(log.Take(), why);
@@ -132,7 +132,7 @@ TEST(ServiceReport, AStandbyIsReadyOnceTheOtherOneHasToldAllThatIsOlderThanWhatI
   heard.set_agents(3);
   const auto hear = [&](std::int64_t now_ns, std::size_t agents, std::int64_t newest_ns) {
     heard.set_now_ns(now_ns);
-    return report.HearOfWork(heard, agents, Instant::FromNanoseconds(newest_ns));
+    return report.HearProgress(heard, agents, Instant::FromNanoseconds(newest_ns));
   };
   const auto standby = [&] {
     std::vector<v1::KeyValue> extensions;

@@ -48,7 +48,7 @@ class StateFailureTest : public testing::Test {
   ScriptedDaemon* Start(v1::Config::OnFailure on_failure) {
     v1::Config config = Simulated();
     config.set_on_state_failure(on_failure);
-    daemon_.emplace(config, DaemonParts{.journal = &*journal_});
+    daemon_.emplace(config, DaemonParts{.journal = {.journal = &*journal_}});
     daemon_->Step({}, 0.01);
     disk_.emplace(kRecordBytes + 7);
     return &*daemon_;
@@ -85,7 +85,7 @@ TEST_F(StateFailureTest, EndEndsBeforeAnythingIsGranted) {
 }
 
 TEST_F(StateFailureTest, AServiceThatFoundNoJournalSaysWhy) {
-  daemon_.emplace(Simulated(), DaemonParts{.state_failure = "/state: cannot be made"});
+  daemon_.emplace(Simulated(), DaemonParts{.journal = {.failure = "/state: cannot be made"}});
   EXPECT_EQ(Extension(daemon_->status(), "state_failure"), "/state: cannot be made");
 }
 

@@ -42,6 +42,13 @@ std::uint64_t CounterOf(const v1::ServiceStatus& status, const std::string& name
   return 0;
 }
 
+std::string ExtensionOf(const v1::ServiceStatus& status, const std::string& key) {
+  for (const v1::KeyValue& extension : status.extensions()) {
+    if (extension.key() == key) return extension.value();
+  }
+  return "";
+}
+
 /// The number of queries to the broad phase, and of events that wait for their time.
 std::string QueriesText(const v1::ServiceStatus& status) {
   return std::to_string(CounterOf(status, "queries_per_second")) + " a second, " +
@@ -68,9 +75,8 @@ std::string TreesText(const v1::ServiceStatus& status) {
   if (count("shapes") + count("trees_building") == 0) return "";
   std::string text =
       std::to_string(count("shapes")) + ", " + std::to_string(count("tree_nodes")) + " balls";
-  for (const v1::KeyValue& extension : status.extensions()) {
-    if (extension.key() == "tree_builder") text += " (" + extension.value() + ")";
-  }
+  const std::string builder = ExtensionOf(status, "tree_builder");
+  if (!builder.empty()) text += " (" + builder + ")";
   text += NumberText(static_cast<double>(count("tree_bytes")) / 1e6, ", %.1f MB; ") +
           std::to_string(count("trees_building")) + " being built; ";
   const std::uint64_t looked =
@@ -91,13 +97,6 @@ std::string OffsetText(const v1::SimulatorStatus& simulator) {
     return is_known ? NumberText(1e-6 * static_cast<double>(ns), "%+.3f") : std::string("?");
   };
   return end(has_lower, offset.earliest_ns()) + " … " + end(has_upper, offset.latest_ns()) + " ms";
-}
-
-std::string ExtensionOf(const v1::ServiceStatus& status, const std::string& key) {
-  for (const v1::KeyValue& extension : status.extensions()) {
-    if (extension.key() == key) return extension.value();
-  }
-  return "";
 }
 
 /// The parts of a list in an extension: kListSeparator is between them.
@@ -200,7 +199,7 @@ std::string ServicesTable(const WorldView& view) {
   const v1::ServiceStatus& serving = *view.status();
   std::vector<std::vector<std::string>> rows = {
       {"ROLE", "SERVICE", "PROCESS", "VERSION", "TERM", "LEASE", "AGENTS", "NOW", "CONFIGURATION"}};
-  const auto add = [&](const char* role, const v1::ServiceStatus& status, const char* note) {
+  const auto add = [&](const std::string& role, const v1::ServiceStatus& status, const char* note) {
     const auto known = [](const std::string& text) { return text.empty() ? "-" : text; };
     const std::string lease = ExtensionOf(status, "lease_s");
     rows.push_back({role, IdText(status.service_id()),
@@ -212,7 +211,9 @@ std::string ServicesTable(const WorldView& view) {
   add("serves", serving, "-");
   for (const v1::ServiceStatus& standby : view.Standbys()) {
     const bool same = standby.configuration() == serving.configuration();
-    add("standby", standby, same ? "the same" : "OTHER");
+    const std::string readiness = ExtensionOf(standby, "standby");
+    add(readiness.empty() ? "standby" : "standby, " + readiness, standby,
+        same ? "the same" : "OTHER");
   }
   return Table(rows);
 }

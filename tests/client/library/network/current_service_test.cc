@@ -79,6 +79,14 @@ v1::ServiceHeard Heard(std::uint64_t id, bool ended) {
   return heard;
 }
 
+// The network need not say that a service has ended: its host may be gone.
+TEST(CurrentService, OneThatNobodyFollowsIsBelievedOnceTheOtherIsSilentForLong) {
+  CurrentService service;
+  service.Accept(Stamp(5, 3), At(0));
+  EXPECT_FALSE(service.Accept(Stamp(9, 4), At(11'999), false));
+  EXPECT_TRUE(service.Accept(Stamp(9, 4), At(12'000), false));
+}
+
 TEST(CurrentService, AStandbyThatNobodyFollowsWaitsForTheEndOfTheOneInForce) {
   CurrentService service;
   EXPECT_TRUE(service.Accept(Stamp(5, 3), At(0)));

@@ -152,6 +152,7 @@ TEST_F(StatusPageTest, ShowsAllServicesInOneTable) {
     standby->set_phase(v1::PHASE_STANDBY);
     standby->set_version("0.2.0");
     standby->set_configuration(id - 1);
+    if (id == 2) Extend(standby, "standby", "ready");
     Extend(standby, "process", "pid 7 on host-b");
     Extend(standby, "lease_s", "2");
   }
@@ -159,11 +160,12 @@ TEST_F(StatusPageTest, ShowsAllServicesInOneTable) {
   const std::string page = StatusPage(view_);
   const std::string head = "VERSION  TERM  LEASE  AGENTS  NOW       CONFIGURATION\n";
   EXPECT_TRUE(page.starts_with(
-      "ROLE     SERVICE           PROCESS           " + head +
-      "serves   0000000000000001  pid 12 on host-a  0.1.0    2     0.5 s  1       12.345 s  -\n"
-      "standby  0000000000000002  pid 7 on host-b   0.2.0    2     2 s    1       12.345 s  the "
-      "same\n"
-      "standby  0000000000000003  pid 7 on host-b   0.2.0    2     2 s    1       12.345 s  "
+      "ROLE            SERVICE           PROCESS           " + head +
+      "serves          0000000000000001  pid 12 on host-a  0.1.0    2     0.5 s  1       12.345 s  "
+      "-\n"
+      "standby, ready  0000000000000002  pid 7 on host-b   0.2.0    2     2 s    1       12.345 s  "
+      "the same\n"
+      "standby         0000000000000003  pid 7 on host-b   0.2.0    2     2 s    1       12.345 s  "
       "OTHER\n"))
       << page;
 }

@@ -1,0 +1,241 @@
+// Goal:   a service that stands by knows what the other one knows, whatever single simulators write,
+//         and takes over without harm to anybody.
+// Method: the statuses of another service by hand, and simulators whose agents pass through each
+//         other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/intake/followed_rounds.h"
+#include "tests/server/service/voyage.h"
+
+namespace collision::server {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+class StandbyOfDaemonTest : public testing::Test {
+ protected:
+  explicit StandbyOfDaemonTest(DaemonParts parts = {})
+      : daemon_(VoyageConfig(), WithClaim(std::move(parts))) {
+    HearOther(1);
+  }
+
+  static DaemonParts WithClaim(DaemonParts parts) {
+    parts.claim = {.instance = 2, .stands_by = true};
+    return parts;
+  }
+
+  /// A status of the service in force.
+  void HearOther(std::uint32_t epoch, std::int64_t granted_until_ns = 0, std::int64_t now_ns = 0) {
+    v1::Input input;
+    v1::ServiceHeard& heard = *input.mutable_service_heard();
+    heard.set_service_id(1);
+    heard.set_term(1);
+    heard.set_phase(v1::PHASE_SERVING);
+    heard.set_followed(true);
+    heard.set_epoch(epoch);
+    heard.set_sequence(++sequence_);
+    heard.set_granted_until_ns(granted_until_ns);
+    heard.set_now_ns(now_ns);
+    daemon_.Step({input});
+  }
+
+  /// It takes over in this step.
+  void EndOther() {
+    v1::Input input;
+    input.mutable_service_heard()->set_service_id(1);
+    input.mutable_service_heard()->set_ended(true);
+    daemon_.Step({input}, 0.01);
+    ASSERT_EQ(daemon_.status().phase(), v1::PHASE_SERVING);
+  }
+
+  std::uint32_t epoch() { return daemon_.status().stamp().epoch(); }
+
+  std::vector<v1::CollisionEvent> Contacts() {
+    std::vector<v1::CollisionEvent> contacts;
+    for (const v1::Output& output : daemon_.bus().outputs) {
+      const v1::CollisionEvent& event = output.collision_event();
+      if (event.contacts_sequence() > 0) contacts.push_back(event);
+    }
+    return contacts;
+  }
+
+  std::int64_t EffectiveFrom(const std::string& simulator) {
+    const v1::Clearance clearance = daemon_.clearance(SimulatorId(simulator));
+    return clearance.agents().at(0).effective_from_ns();
+  }
+
+  ScriptedDaemon daemon_;
+  std::uint64_t sequence_ = 0;
+};
+
+// Readers and standbys compare epochs of different services.
+TEST_F(StandbyOfDaemonTest, ItsEpochIsThatOfTheServiceBesideIt) {
+  HearOther(3);
+  EXPECT_EQ(daemon_.status().phase(), v1::PHASE_STANDBY);
+  EXPECT_EQ(epoch(), 3u);
+  HearOther(4);
+  EXPECT_EQ(epoch(), 4u) << "before time begins";
+  HearOther(2);
+  EXPECT_EQ(epoch(), 4u);
+  const Voyage run;
+  daemon_.Step(run.Told(0), 0.01);
+  HearOther(9);
+  EXPECT_EQ(epoch(), 4u) << "its own time has begun";
+}
+
+// Goal:   what the other service granted in an epoch that is over holds nobody in the next one.
+TEST_F(StandbyOfDaemonTest, GrantsOfAnEpochThatIsOverDoNotCount) {
+  HearOther(1, 1000 * kSecond);
+  Voyage run;
+  daemon_.Step(run.Told(0), 0.01);
+  daemon_.Step(Joined(run.Removals(), {run.End()}), 0.01);
+  ASSERT_EQ(epoch(), 2u);
+  run = {.sender = 2, .run = 2};
+  daemon_.Step(run.Told(0), 0.01);
+  HearOther(1, 1000 * kSecond);  // late
+  EndOther();
+  daemon_.Step(run.ToldTo(2, 0), 0.01);
+  EXPECT_LT(EffectiveFrom("alpha"), 100 * kSecond);
+}
+
+// Goal:   readiness is of one epoch.
+TEST_F(StandbyOfDaemonTest, IsReadyAnewInEachEpoch) {
+  const auto standby = [this] { return Extension(daemon_.status(), "standby"); };
+  HearOther(1);
+  EXPECT_EQ(standby(), "ready") << "there is nothing to know";
+  const Voyage run;
+  daemon_.Step(run.Told(0), 0.01);
+  daemon_.Step(Joined(run.Removals(), {run.End()}), 0.01);
+  ASSERT_EQ(epoch(), 2u);
+  EXPECT_EQ(standby(), "not ready yet");
+  HearOther(1, 0, 1000 * kSecond);
+  EXPECT_EQ(standby(), "not ready yet") << "a status of the epoch that is over";
+  HearOther(2);
+  EXPECT_EQ(standby(), "ready");
+}
+
+// What a standby says whose own cable was out would be wrong.
+TEST_F(StandbyOfDaemonTest, IsSilentButForItsStatusUntilASimulatorFollowsIt) {
+  const Voyage run;
+  daemon_.Step(run.Told(0), 0.01);
+  EndOther();
+  EXPECT_EQ(daemon_.status().followers(), 0u);
+  const auto says_more_than_its_status = [&] {
+    return std::any_of(daemon_.bus().outputs.begin(), daemon_.bus().outputs.end(),
+                       [](const v1::Output& output) { return !output.has_service_status(); });
+  };
+  EXPECT_FALSE(says_more_than_its_status());
+  daemon_.Step(run.ToldTo(2, 0), 0.01);
+  EXPECT_TRUE(says_more_than_its_status());
+  EXPECT_EQ(daemon_.status().followers(), 1u);
+}
+
+// Goal:   contacts of an epoch that ends before anybody has heard the successor are told later, as
+//         history.
+TEST_F(StandbyOfDaemonTest, ContactsOfAnEpochThatEndedUnheardAreToldInTheNextOne) {
+  Voyage run;
+  for (int step = 0; step <= kSteps; ++step) daemon_.Step(run.Told(step), 0.01);
+  EndOther();
+  daemon_.Step(Joined(run.Removals(), {run.End()}), 0.01);
+  ASSERT_EQ(epoch(), 2u);
+  EXPECT_TRUE(Contacts().empty());
+  run = {.sender = 2, .run = 2};
+  daemon_.Step(run.Told(0), 0.01);
+  const std::vector<v1::CollisionEvent> contacts = Contacts();
+  ASSERT_FALSE(contacts.empty());
+  EXPECT_EQ(contacts.back().status(), v1::EVENT_ENDED);
+  for (const v1::CollisionEvent& contact : contacts) {
+    EXPECT_EQ(contact.stamp().epoch(), 1u);
+    EXPECT_EQ(contact.lower().run(), 1u);
+  }
+}
+
+// Goal:   the journal is opened, and has the term, though nobody is there to follow.
+TEST(StandbyOfAQuietWorld, OpensTheJournalOnceTheOtherServiceHasLetGo) {
+  const std::string folder = testing::TempDir() + "standby_of_a_quiet_world";
+  std::filesystem::remove_all(folder);
+  auto of_the_other = std::make_unique<Journal>(folder, "default", 0, 16);
+  std::unique_ptr<Journal> own;
+  DaemonParts parts{.claim = {.instance = 2, .stands_by = true}};
+  parts.journal.open = [&] {
+    return (own = std::make_unique<Journal>(folder, "default", 0, 16)).get();
+  };
+  ScriptedDaemon daemon(VoyageConfig(), std::move(parts));
+  v1::Input heard;
+  heard.mutable_service_heard()->set_service_id(1);
+  heard.mutable_service_heard()->set_term(1);
+  heard.mutable_service_heard()->set_phase(v1::PHASE_SERVING);
+  daemon.Step({heard});
+  heard.mutable_service_heard()->set_ended(true);
+  daemon.Step({heard}, 0.01);
+  EXPECT_NE(Extension(daemon.status(), "state_failure"), "") << "it is awaited";
+  of_the_other.reset();
+  daemon.Step({}, 2);
+  EXPECT_EQ(Extension(daemon.status(), "state_failure"), "");
+  ASSERT_NE(own, nullptr);
+  EXPECT_EQ(own->term(), 2u);
+  std::filesystem::remove_all(folder);
+}
+
+class OneBesideAnotherTest : public StandbyOfDaemonTest {
+ protected:
+  OneBesideAnotherTest() {
+    HearOther(1, 2 * kSecond);
+    daemon_.Step(Joined(honest_.Told(0), other_.Told(0)), 0.01);
+  }
+
+  const Voyage honest_{.simulator = "alpha", .in_rounds = true};
+  const Voyage other_{.simulator = "beta", .sender = 2, .in_rounds = true};
+};
+
+// Goal:   a clock that no service has granted, which the one in force refuses, moves nothing at the
+//         one that stands by, nor once that serves.
+TEST_F(OneBesideAnotherTest, AClockBeyondAnyGrantHoldsNobody) {
+  constexpr std::int64_t kFar = 4'000'000'000 * kSecond;
+  daemon_.Step({From(2, ClockAfter("beta", kFar, 2, 2))}, 0.01);
+  daemon_.Step({From(7, ClockAfter("alpha", kFar, 2, 2))}, 0.01);  // a program that owns nothing
+  EndOther();
+  for (int step = 0; step <= kSteps; ++step) {
+    daemon_.Step(Joined(honest_.ToldTo(2, step), other_.ToldTo(2, step)), 0.01);
+  }
+  EXPECT_LE(EffectiveFrom("alpha"), 20 * kSecond);
+  EXPECT_EQ(daemon_.status().now_ns(), kSteps * kTenth);
+  EXPECT_EQ(Extension(daemon_.status(), "waiting_for"), "");
+}
+
+// Goal:   nor does one that a successor must believe, since it may have been granted.
+TEST_F(OneBesideAnotherTest, AClockBeyondAnyGrantAfterTheTakeOverHoldsNoOther) {
+  constexpr std::int64_t kFar = 4'000'000'000 * kSecond;
+  EndOther();
+  v1::SimulatorClock far = ClockAfter("beta", kFar, 2, 2);
+  far.set_service_id(2);
+  for (int step = 0; step <= kSteps; ++step) {
+    daemon_.Step(Joined(honest_.ToldTo(2, step), {From(2, far)}), 0.01);
+  }
+  EXPECT_LE(EffectiveFrom("alpha"), 20 * kSecond);
+  EXPECT_EQ(daemon_.status().now_ns(), kSteps * kTenth);
+}
+
+// Goal:   what one simulator tells of times that never come leaves the others their room.
+TEST_F(OneBesideAnotherTest, AFloodOfOneTakesAnEighthOfWhatIsKept) {
+  std::vector<v1::Input> flood;
+  for (std::size_t i = 0; i < FollowedRounds::kKeptMax + 1; ++i) {
+    flood.push_back(From(2, State(0, 3600 * kSecond, 3 + i), "beta"));
+  }
+  daemon_.Step(std::move(flood), 0.01);
+  const std::uint64_t taken = daemon_.counter("states_received");
+  EXPECT_GE(taken, FollowedRounds::kKeptMax - FollowedRounds::kKeptOfOneMax);
+  v1::AgentState ahead = honest_.StateOf(0, 30);
+  daemon_.Step({From(1, ahead, "alpha")}, 0.01);
+  EXPECT_EQ(daemon_.counter("states_received"), taken) << "kept until its round";
+}
+
+}  // namespace
+}  // namespace collision::server
