@@ -68,6 +68,9 @@ inline constexpr int kForecastsKept = 2;
 /// The counter of the status that tells the number of the last contact published.
 inline constexpr std::string_view kContactsCounter = "contacts_published";
 
+/// The extension of the status that tells, in turn, which runs the service has ended.
+inline constexpr std::string_view kEndedRunsExtension = "ended_runs";
+
 /// The extension of the status that says where the service runs: "pid 1234 on host-a".
 inline constexpr std::string_view kProcessExtension = "process";
 

@@ -293,6 +293,14 @@ void Intake::EndRun(Simulator* simulator, EndCause cause) {
   world_.EndRun(simulator, cause);
 }
 
+void Intake::FollowEnd(const EndedRun& ended) {
+  if (world_.ended_runs().Refusal(ended.simulator, ended.run)) return;
+  Simulator* const simulator = world_.Find(ended.simulator);
+  if (simulator != nullptr && simulator->run() <= ended.run) EndRun(simulator, ended.cause);
+  if (world_.ended_runs().Refusal(ended.simulator, ended.run)) return;
+  world_.ended_runs().Add(ended.simulator, ended.run, ended.cause);
+}
+
 void Intake::EndEpoch() {
   for (auto& [id, simulator] : world_.simulators()) {
     if (!World::LeavesWithEpoch(simulator)) continue;

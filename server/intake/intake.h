@@ -44,6 +44,9 @@ class Intake {
   /// Whether this clock, which counts, says that its simulator follows this service.
   void NoteFollower(const v1::SimulatorClock& clock);
 
+  /// Another service has ended this run: so does this one, where it does not know of it.
+  void FollowEnd(const EndedRun& ended);
+
   /// Whether another service publishes in this world, or did lately (Clearances::Acknowledge()).
   void SetContended(bool contended) { contended_ = contended; }
 

@@ -211,6 +211,7 @@ class Daemon::Implementation {
       publisher_.BeginEpoch(world_.epoch(), world_);
     if (heard.epoch() == world_.epoch())
       world_.HearGranted(Instant::FromNanoseconds(heard.granted_until_ns()));
+    for (const EndedRun& ended : EndedRunsIn(heard.ended_runs())) intake_.FollowEnd(ended);
     const bool is_past = world_.simulated() && heard.epoch() < world_.epoch();
     if (claim_.phase() != ClaimPhase::kStandby || is_past) return;
     if (services_.HearProgress(heard, detector_.agents(), world_.newest())) schedule_.Hasten();
@@ -384,13 +385,15 @@ class Daemon::Implementation {
                     .extensions = Extensions()}));
   }
 
-  std::vector<v1::KeyValue> Extensions() const {
+  std::vector<v1::KeyValue> Extensions() {
     std::vector<v1::KeyValue> extensions;
     services_.AddExtensions(claim_.phase() == ClaimPhase::kStandby, &extensions);
     silence_report_.AddExtensions(&extensions);
     operators_.AddExtensions(&extensions);
     shares_.AddExtensions(&extensions);
     AddText("state_failure", journal_.failure() + journal_.awaited(), &extensions);
+    AddText(std::string(wire::kEndedRunsExtension),
+            world_.ended_runs().TakeTurn(wire::kExtensionValueMax), &extensions);
     AddText("recording_failure", recorder_.failure(), &extensions);
     if (quarantine_ != nullptr) AddText("quarantine", quarantine_->Summary(), &extensions);
     return extensions;

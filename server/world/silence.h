@@ -17,7 +17,7 @@ namespace collision::server {
 enum class WaitReason {
   kEnded,   ///< It is not heard: its process has ended, or stands still; its agents are there.
   kStands,  ///< It was granted time, lives, and tells nothing new.
-  kDoesNotFollowYet,  ///< A service before this one served it; it lives, and does not follow this one yet.
+  kDoesNotFollowYet,  ///< A service before this one served it; it lives.
   kMissing,           ///< Likewise, but it is not heard.
 };
 

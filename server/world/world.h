@@ -137,6 +137,7 @@ class World {
   /// removed.
   void EndRun(Simulator* simulator, EndCause cause);
   const EndedRuns& ended_runs() const { return ended_runs_; }
+  EndedRuns& ended_runs() { return ended_runs_; }
 
   /// Simulated clock: it has begun, and nobody holds time any more. Call it before successors take
   /// over.

@@ -1,5 +1,5 @@
-// Goal:   a service that stands by knows what the other one knows, whatever single simulators write,
-//         and takes over without harm to anybody.
+// Goal:   a service that stands by knows what the other one knows, whatever single simulators
+//         write, and takes over without harm to anybody.
 // Method: the statuses of another service by hand, and simulators whose agents pass through each
 //         other.
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "idl/identity.h"
 #include "server/intake/followed_rounds.h"
 #include "tests/server/service/voyage.h"
 
@@ -32,7 +33,8 @@ class StandbyOfDaemonTest : public testing::Test {
   }
 
   /// A status of the service in force.
-  void HearOther(std::uint32_t epoch, std::int64_t granted_until_ns = 0, std::int64_t now_ns = 0) {
+  void HearOther(std::uint32_t epoch, std::int64_t granted_until_ns = 0, std::int64_t now_ns = 0,
+                 const std::string& ended_runs = "") {
     v1::Input input;
     v1::ServiceHeard& heard = *input.mutable_service_heard();
     heard.set_service_id(1);
@@ -43,6 +45,7 @@ class StandbyOfDaemonTest : public testing::Test {
     heard.set_sequence(++sequence_);
     heard.set_granted_until_ns(granted_until_ns);
     heard.set_now_ns(now_ns);
+    heard.set_ended_runs(ended_runs);
     daemon_.Step({input});
   }
 
@@ -155,6 +158,23 @@ TEST_F(StandbyOfDaemonTest, ContactsOfAnEpochThatEndedUnheardAreToldInTheNextOne
     EXPECT_EQ(contact.stamp().epoch(), 1u);
     EXPECT_EQ(contact.lower().run(), 1u);
   }
+}
+
+// Goal:   a run that the service in force has ended before this one came stays ended.
+TEST_F(StandbyOfDaemonTest, RunsThatTheOtherServiceHasEndedNeverComeBack) {
+  const Voyage evicted{.run = 3};
+  daemon_.Step(evicted.Told(0), 0.01);
+  EXPECT_EQ(daemon_.status().agents(), 2u);
+  HearOther(1, 0, 0, IdText(SimulatorId("alpha")) + ":3:evicted");
+  EXPECT_EQ(daemon_.status().agents(), 0u);
+  EXPECT_EQ(daemon_.counter("simulators_evicted"), 1u);
+  EndOther();
+  daemon_.Step(evicted.ToldTo(2, 0), 0.01);
+  EXPECT_EQ(daemon_.status().agents(), 0u);
+  const Voyage next{.run = 4};
+  daemon_.Step(next.ToldTo(2, 0), 0.01);
+  EXPECT_EQ(daemon_.status().agents(), 2u);
+  EXPECT_EQ(Extension(daemon_.status(), "ended_runs"), IdText(SimulatorId("alpha")) + ":3:evicted");
 }
 
 // Goal:   the journal is opened, and has the term, though nobody is there to follow.

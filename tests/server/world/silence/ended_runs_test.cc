@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace collision::server {
 namespace {
 
@@ -43,6 +46,35 @@ TEST(EndedRuns, BeyondTheLimitTheOneEndedFirstIsForgotten) {
   EXPECT_NE(ended.Refusal(0, 2), std::nullopt) << "ended again since";
   EXPECT_EQ(ended.Refusal(1, 1), std::nullopt);
   EXPECT_NE(ended.Refusal(2, 1), std::nullopt);
+}
+
+// Goal:   a reader that listens for long enough knows them all, whatever fits into one text.
+TEST(EndedRuns, InTurnAllAreTold) {
+  EndedRuns ended;
+  EXPECT_EQ(ended.TakeTurn(256), "");
+  std::vector<EndedRun> all;
+  for (std::uint64_t id = 0; id < 20; ++id) {
+    all.push_back({.simulator = ~id, .run = 4'000'000'000u, .cause = EndCause(id % 3)});
+    ended.Add(all.back().simulator, all.back().run, all.back().cause);
+  }
+  std::vector<EndedRun> heard;
+  while (heard.size() < all.size()) {
+    const std::string text = ended.TakeTurn(256);
+    ASSERT_LE(text.size(), 256u);
+    const std::vector<EndedRun> some = EndedRunsIn(text);
+    ASSERT_FALSE(some.empty());
+    heard.insert(heard.end(), some.begin(), some.end());
+  }
+  heard.resize(all.size());
+  EXPECT_EQ(heard, all);
+  EXPECT_LE(EndedRunsIn(ended.TakeTurn(10'000)).size(), all.size()) << "none twice in one text";
+}
+
+TEST(EndedRuns, WhatIsNoEndedRunIsLeftOut) {
+  const EndedRun ended{.simulator = 0xab, .run = 7, .cause = EndCause::kEvicted};
+  EXPECT_EQ(EndedRunsIn(", x, :, ab, ab:, ab:7, ab:7:, ab:7:eaten, ab:-1:silent, ab:7:silent2,"
+                        "ab:7:silent, 00000000000000ab:7:evicted, ab:4294967296:evicted, ab:7"),
+            std::vector<EndedRun>{ended});
 }
 
 }  // namespace
