@@ -12,10 +12,11 @@
 #include <vector>
 
 #include "client/programs/shared/stop_signal.h"
-#include "tests/repeat/slow_network.h"
+#include "tests/network/lan.h"
 #include "tests/repeat/stopper.h"
 #include "tests/system/event_log.h"
 #include "tests/system/process.h"
+#include "tests/system/two_hosts.h"
 
 namespace collision::repeat {
 namespace {
@@ -27,7 +28,7 @@ using system_test::Process;
 constexpr char kService[] = "collisiond";
 // A starved service takes long to build a tree. After a limit time would go on without it.
 constexpr char kWaitForShapes[] = "clock { shape_wait_max_s: 3600 }";
-constexpr CableFaults kFaults{.delay_min_s = 0.001, .delay_max_s = 0.005, .loss = 0.01};
+constexpr network::LinkFaults kFaults{.loss = 0.01, .delay_min_s = 0.001, .delay_max_s = 0.005};
 constexpr std::chrono::minutes kLongest{20};  // no flight takes so long
 constexpr std::chrono::milliseconds kStopCheck{50};
 constexpr std::size_t kSaidMax = 2000;
@@ -51,27 +52,27 @@ struct Start {
   bool starved = false;
 };
 
-Start StartOf(const std::string& program, const FlightPlan& plan, const SlowNetwork* network) {
+Start StartOf(const std::string& program, const FlightPlan& plan, const network::Lan* lan) {
   const Condition& condition = plan.condition;
   const bool service = program == kService;
   Start start;
   start.starved = service ? condition.starves_service : condition.starves_simulators;
   if (start.starved) start.before = {"nice", "-n", "5"};
   if (service) return start;
-  if (network != nullptr) start.before = network->On(1, start.before);
+  if (lan != nullptr) start.before = system_test::InNamespace(lan->host(1), start.before);
   if (plan.speed > 0) start.after = {"--speed", std::to_string(plan.speed)};
   return start;
 }
 
 /// A folder that has a script in place of each program: it notes the process id of what is to be
 /// starved and becomes the program.
-void WriteScripts(const FlightPlan& plan, const Places& places, const SlowNetwork* network,
+void WriteScripts(const FlightPlan& plan, const Places& places, const network::Lan* lan,
                   const fs::path& folder) {
   fs::create_directories(folder / "bin");
   fs::create_directories(folder / "starved");
   for (const auto& entry : fs::directory_iterator(places.bin)) {
     const std::string program = entry.path().filename().string();
-    const Start start = StartOf(program, plan, network);
+    const Start start = StartOf(program, plan, lan);
     const fs::path path = folder / "bin" / program;
     std::ofstream script(path);
     script << "#!/bin/sh\n";
@@ -131,14 +132,12 @@ Flight Fly(const FlightPlan& plan, const Places& places, const std::string& fold
   const bool starves = condition.starves();
   fs::remove_all(folder);
   fs::create_directories(folder);
-  CableFaults faults = kFaults;
-  faults.seed = plan.seed;
-  std::optional<SlowNetwork> network;
-  if (condition.slow_network) network.emplace(places.bin + "/slow-cable", faults);
-  WriteScripts(plan, places, network ? &*network : nullptr, folder);
+  std::optional<network::Lan> lan;
+  if (condition.slow_network) lan.emplace(2, plan.seed).SetFaults(kFaults);
+  WriteScripts(plan, places, lan ? &*lan : nullptr, folder);
   std::vector<std::string> command = Command(plan, places, folder);
-  if (network) command = network->On(0, command);
-  const std::string profile = network ? "cyclonedds-lan.xml" : "cyclonedds-loopback.xml";
+  if (lan) command = system_test::InNamespace(lan->host(0), command);
+  const std::string profile = lan ? "cyclonedds-lan.xml" : "cyclonedds-loopback.xml";
   const auto loops = starves ? BusyLoops() : std::vector<std::unique_ptr<Process>>();
   const auto began = steady_clock::now();
   Process runner(command, {"CYCLONEDDS_URI=file://" + places.config + "/" + profile});
