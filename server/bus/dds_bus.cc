@@ -4,6 +4,9 @@
 
 #include <utility>
 
+#include "idl/dds/network_log.h"
+#include "server/process/logging.h"
+
 namespace collision::server {
 namespace {
 
@@ -31,7 +34,12 @@ v1::Counter CounterOf(const std::string& name, std::uint64_t value) {
 
 DdsBus::DdsBus(const std::string& world, std::uint32_t domain, std::chrono::nanoseconds lease,
                const dds::SenderLimits& sender_limits, bool stands_by)
-    : world_(world), session_(Options(world, domain, lease, sender_limits, stands_by)) {}
+    : world_(world), session_(Options(world, domain, lease, sender_limits, stands_by)) {
+  // Not before: of what is wrong with a network profile every line is wanted.
+  dds::SetNetworkLog([](bool is_error, const std::string& line) {
+    Log(is_error ? spdlog::level::err : spdlog::level::warn, "Cyclone DDS", line);
+  });
+}
 
 bool DdsBus::Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                      std::vector<v1::Input>* inputs) {
