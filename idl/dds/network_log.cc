@@ -2,7 +2,7 @@
 
 #include <dds/ddsrt/log.h>
 
-#include <mutex>
+#include <iostream>
 #include <utility>
 
 #include "idl/dds/text.h"
@@ -10,30 +10,22 @@
 namespace collision::dds {
 namespace {
 
-struct Sink {
-  std::mutex mutex;
-  std::function<void(bool, const std::string&)> write;
-};
+using Write = std::function<void(const std::string&)>;
 
-void Take(void* sink, const dds_log_data_t* data) {
+void HandOn(void* write, const dds_log_data_t* data) {
   std::string line(data->message, data->size);
+  if ((data->priority & DDS_LC_FATAL) != 0) std::cerr << line << std::flush;  // it ends the process
   while (!line.empty() && line.back() == '\n') line.pop_back();
-  const bool is_error = (data->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0;
-  auto& to = *static_cast<Sink*>(sink);
-  const std::lock_guard lock(to.mutex);
-  to.write(is_error, Printable(std::move(line)));
+  (*static_cast<const Write*>(write))(Printable(std::move(line)));
 }
 
 }  // namespace
 
-void SetNetworkLog(std::function<void(bool is_error, const std::string& line)> write) {
-  // Threads of Cyclone DDS may outlive whatever could own it.
-  static Sink& sink = *new Sink;
-  {
-    const std::lock_guard lock(sink.mutex);
-    sink.write = std::move(write);
-  }
-  dds_set_log_sink(Take, &sink);
+void SetNetworkLog(Write write) {
+  static Write current;
+  dds_set_log_sink(nullptr, nullptr);  // returns once no thread uses the former one
+  current = std::move(write);
+  if (current) dds_set_log_sink(HandOn, &current);
 }
 
 }  // namespace collision::dds

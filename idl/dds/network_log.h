@@ -6,8 +6,10 @@
 
 namespace collision::dds {
 
-/// Hands on what Cyclone DDS would write to standard error: errors (`is_error`), warnings and
-/// notes, a line each. Of the whole process, and for good; from any of its threads, one at a time.
-void SetNetworkLog(std::function<void(bool is_error, const std::string& line)> write);
+/// From now on `write` gets what Cyclone DDS would write to standard error, a line for each error,
+/// warning and note of any domain of this process. It is called from any thread of Cyclone DDS,
+/// also from several at once, and no more once this function has been called again. Null: standard
+/// error gets it, as at first.
+void SetNetworkLog(std::function<void(const std::string& line)> write);
 
 }  // namespace collision::dds

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "idl/dds/network_log.h"
-#include "server/process/logging.h"
 
 namespace collision::server {
 namespace {
@@ -36,10 +35,13 @@ DdsBus::DdsBus(const std::string& world, std::uint32_t domain, std::chrono::nano
                const dds::SenderLimits& sender_limits, bool stands_by)
     : world_(world), session_(Options(world, domain, lease, sender_limits, stands_by)) {
   // Not before: of what is wrong with a network profile every line is wanted.
-  dds::SetNetworkLog([](bool is_error, const std::string& line) {
-    Log(is_error ? spdlog::level::err : spdlog::level::warn, "Cyclone DDS", line);
+  dds::SetNetworkLog([this](const std::string& line) {
+    const std::lock_guard lock(said_mutex_);
+    if (said_.size() < kSaidMax) said_.push_back("Cyclone DDS: " + line);
   });
 }
+
+DdsBus::~DdsBus() { dds::SetNetworkLog(nullptr); }
 
 bool DdsBus::Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                      std::vector<v1::Input>* inputs) {
@@ -96,6 +98,10 @@ void DdsBus::Wake() { session_.Wake(); }
 
 std::vector<std::string> DdsBus::TakeWarnings() {
   std::vector<std::string> lines;
+  {
+    const std::lock_guard lock(said_mutex_);
+    lines = std::exchange(said_, {});
+  }
   for (const DdsIgnored& ignored : session_.TakeIgnored()) {
     lines.push_back(SimulatorIn(ignored.partition) +
                     " writes more than it may: it is ignored for " +

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ class DdsBus final : public Bus {
   DdsBus(const std::string& world, std::uint32_t domain,
          std::chrono::nanoseconds lease = std::chrono::seconds(2),
          const dds::SenderLimits& sender_limits = {}, bool stands_by = false);
+  ~DdsBus() override;
+  DdsBus(const DdsBus&) = delete;
+  DdsBus& operator=(const DdsBus&) = delete;
 
   /// `limit` counts samples: a sample that also ends its instance adds a removal as a second
   /// message, and changes of liveliness come on top. At most 16 MiB of samples or one more, so that
@@ -41,7 +45,7 @@ class DdsBus final : public Bus {
   void EndHold(bool publish) override;
   void Wake() override;
 
-  /// The programs that are ignored from now on.
+  /// The programs that are ignored from now on, and what Cyclone DDS said meanwhile.
   std::vector<std::string> TakeWarnings() override;
   std::uint32_t earliest_readers() const override { return earliest_readers_; }
 
@@ -59,7 +63,12 @@ class DdsBus final : public Bus {
   /// The simulator that a program speaks for, as its partition says.
   std::string SimulatorIn(const std::string& partition) const;
 
+  /// Lines of Cyclone DDS that are kept for TakeWarnings(); further ones are dropped.
+  static constexpr std::size_t kSaidMax = 64;
+
   const std::string world_;
+  std::mutex said_mutex_;
+  std::vector<std::string> said_;
   DdsSession session_;
   std::chrono::nanoseconds standstill_{0};
   std::chrono::steady_clock::time_point ran_;  ///< It certainly ran then.

@@ -5,23 +5,25 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace collision::dds {
 namespace {
 
-TEST(NetworkLog, HandsOnEachLineAndWhetherItIsAnError) {
-  std::vector<std::pair<bool, std::string>> lines;
-  SetNetworkLog(
-      [&](bool is_error, const std::string& line) { lines.emplace_back(is_error, line); });
-  dds_log(DDS_LC_ERROR, __FILE__, __LINE__, __func__, "cannot send to %d\n", 7);
-  dds_log(DDS_LC_WARNING, __FILE__, __LINE__, __func__, "late\x1b[31m\n");
-  SetNetworkLog([](bool, const std::string&) {});
-  dds_log(DDS_LC_ERROR, __FILE__, __LINE__, __func__, "not for the first one\n");
-  const std::vector<std::pair<bool, std::string>> expected = {{true, "cannot send to 7"},
-                                                              {false, "late?[31m"}};
-  EXPECT_EQ(lines, expected);
+void Say(const char* text, int number) {
+  dds_log(DDS_LC_ERROR, __FILE__, __LINE__, __func__, text, number);
+}
+
+TEST(NetworkLog, HandsOnEachLineUntilAnotherOneDoes) {
+  std::vector<std::string> first, second;
+  SetNetworkLog([&](const std::string& line) { first.push_back(line); });
+  Say("cannot send to %d\n", 7);
+  Say("late\x1b[31m %d\n", 8);
+  SetNetworkLog([&](const std::string& line) { second.push_back(line); });
+  Say("%d bytes", 9);
+  SetNetworkLog(nullptr);
+  EXPECT_EQ(first, (std::vector<std::string>{"cannot send to 7", "late?[31m 8"}));
+  EXPECT_EQ(second, std::vector<std::string>{"9 bytes"});
 }
 
 }  // namespace
