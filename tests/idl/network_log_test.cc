@@ -20,7 +20,7 @@ TEST(NetworkLog, HandsOnEachLineUntilAnotherOneDoes) {
   Say("cannot send to %d\n", 7);
   Say("late\x1b[31m %d\n", 8);
   SetNetworkLog([&](const std::string& line) { second.push_back(line); });
-  Say("%d bytes", 9);
+  Say("%d bytes\n", 9);
   SetNetworkLog(nullptr);
   EXPECT_EQ(first, (std::vector<std::string>{"cannot send to 7", "late?[31m 8"}));
   EXPECT_EQ(second, std::vector<std::string>{"9 bytes"});
