@@ -41,8 +41,12 @@ void FollowedRounds::Apply(const v1::Input& input) {
   Simulator* const simulator = time > RoundEnd() ? FindFollower(input) : nullptr;
   if (simulator == nullptr || !Keep(simulator->id(), input)) return intake_.Apply(input);
   if (!input.has_simulator_clock()) return;
-  world_.HearClock(simulator, time);
-  intake_.NoteFollower(input.simulator_clock());
+  const v1::SimulatorClock& clock = input.simulator_clock();
+  const bool tells_next = clock.next_ns() > clock.clock_ns();
+  const Instant next = Instant::FromNanoseconds(clock.next_ns());
+  world_.HearClock(simulator, time,
+                   ToldUntil(time, tells_next ? std::optional(next) : std::nullopt));
+  intake_.NoteFollower(clock);
 }
 
 /// The simulator in lock-step of which this program speaks; null: there is none. Others have no

@@ -26,23 +26,10 @@
 #include "server/service/service_report.h"
 #include "server/service/share_report.h"
 #include "server/service/silence_report.h"
+#include "server/service/step_limits.h"
 #include "server/shapes/shape_store.h"
 
 namespace collision::server {
-namespace {
-
-/// Rounds in which no simulator has a step follow each other in one step of the daemon, but not
-/// more than these, so that it hears what arrives meanwhile.
-constexpr int kRoundsPerStepMax = 64;
-
-/// A process that makes no step for so much longer than the status period [ns] has stood still.
-constexpr std::int64_t kStoodStill = 1'000'000'000;
-
-/// Queries for one answer about the earliest intersection, some 5 us each: all that an exact answer
-/// needs, unless agents or pairs by the dozen are about equally near.
-constexpr std::size_t kEarliestQueriesMax = 64;
-
-}  // namespace
 
 class Daemon::Implementation {
  public:
@@ -100,7 +87,11 @@ class Daemon::Implementation {
     if (!Begin(clock_.Read(), &inputs)) return false;
     // Otherwise there is a step for each status at least.
     const std::int64_t gap_ns = world_.monotonic_ns() - before_ns;
-    if (gap_ns > ToNanoseconds(config_.status_period_s()) + kStoodStill) world_.WakeUp();
+    if (gap_ns > ToNanoseconds(config_.status_period_s()) + kStoodStill) {
+      world_.WakeUp();
+      services_.ForgetProgress();
+      if (claim_.phase() == ClaimPhase::kStandby) world_.SetCaughtUp(false);
+    }
     claim_.WakeUp(gap_ns, world_.monotonic_ns());
     if (claim_.phase() == ClaimPhase::kServing) bus_.EndHold(true);
     if (!Claim(inputs)) return false;
@@ -195,6 +186,9 @@ class Daemon::Implementation {
     services_.Write(claim_.Conflicts(now_ns), now_ns);
     intake_.SetContended(claim_.IsContended(now_ns));
     if (claim_.phase() != before) ChangePhase(before);
+    if (claim_.phase() == ClaimPhase::kServing && world_.is_behind()) {
+      world_.SetCaughtUp(services_.MayGoOn(world_.agents_in_time(), now_ns));
+    }
     if (claim_.phase() == ClaimPhase::kStandby) rounds_.StandBy();
     bus_.HoldAfter(std::chrono::nanoseconds(claim_.hold_after_ns()));
     return claim_.phase() != ClaimPhase::kYielded;
@@ -209,12 +203,15 @@ class Daemon::Implementation {
       return;
     if (!advanced_to_ && world_.FollowEpoch(heard.epoch()))
       publisher_.BeginEpoch(world_.epoch(), world_);
-    if (heard.epoch() == world_.epoch())
-      world_.HearGranted(Instant::FromNanoseconds(heard.granted_until_ns()));
+    if (heard.epoch() == world_.epoch()) {
+      world_.HearStatus(Instant::FromNanoseconds(heard.now_ns()),
+                        Instant::FromNanoseconds(heard.granted_until_ns()));
+    }
     for (const EndedRun& ended : EndedRunsIn(heard.ended_runs())) intake_.FollowEnd(ended);
     const bool is_past = world_.simulated() && heard.epoch() < world_.epoch();
     if (claim_.phase() != ClaimPhase::kStandby || is_past) return;
     if (services_.HearProgress(heard, detector_.agents(), world_.newest())) schedule_.Hasten();
+    world_.SetCaughtUp(services_.is_ready());
   }
 
   void ChangePhase(ClaimPhase before) {
@@ -291,7 +288,7 @@ class Daemon::Implementation {
     rounds_.Clear();
     world_.BeginEpoch();
     publisher_.BeginEpoch(world_.epoch(), world_);
-    services_.BeginEpoch();
+    services_.ForgetProgress();
     schedule_.Hasten();
     if (claim_.phase() != ClaimPhase::kServing) return;
     journal_.SetTerm(claim_.term(), world_.epoch(), world_.monotonic_ns());

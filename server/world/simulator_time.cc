@@ -4,6 +4,11 @@
 
 namespace collision::server {
 
+Instant ToldUntil(Instant clock, const std::optional<Instant>& next) {
+  if (!next || next->is_never()) return next.value_or(clock);
+  return Instant::FromNanoseconds(next->nanoseconds() - 1);
+}
+
 void SimulatorTime::RecordStates(std::uint64_t sequence) {
   states_seen_ = std::max(states_seen_, sequence);
 }
@@ -34,6 +39,7 @@ void SimulatorTime::Offer(const PendingClock& offered) {
   awaits_own_clock_ = false;
   offered_ = offered;
   newest_ = std::max(newest_, offered.clock);
+  Hear(offered.clock, ToldUntil(offered.clock, offered.next));
   lock_step_ = offered.lock_step;
   other_kind_ = false;
   if (pending_.size() == kPendingClocksMax) pending_.pop_back();
@@ -54,13 +60,11 @@ bool SimulatorTime::Take() {
 }
 
 Instant SimulatorTime::told_until() const {
-  if (!clock_) return Instant::Always();
-  if (!next_ || next_->is_never()) return next_.value_or(*clock_);
-  return Instant::FromNanoseconds(next_->nanoseconds() - 1);
+  return clock_ ? ToldUntil(*clock_, next_) : Instant::Always();
 }
 
 void SimulatorTime::Restart() {
-  newest_ = heard_ = Instant::Always();
+  newest_ = heard_ = heard_until_ = Instant::Always();
   pending_.clear();
   first_clock_.reset();
   clock_.reset();

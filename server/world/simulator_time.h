@@ -11,6 +11,9 @@
 
 namespace collision::server {
 
+/// What a clock tells: all before its `next`, or up to itself. Never(): no step follows.
+Instant ToldUntil(Instant clock, const std::optional<Instant>& next);
+
 /// A clock, and what its simulator had written before it.
 struct PendingClock {
   Instant clock;
@@ -48,8 +51,12 @@ class SimulatorTime {
   /// described.
   void TellPresence(std::uint64_t descriptions_sequence, std::uint32_t agents);
 
-  /// A clock has arrived that is taken in a later round (FollowedRounds).
-  void Hear(Instant clock) { heard_ = std::max(heard_, clock); }
+  /// A clock has arrived, of which told_until() will be `until`. It may be taken in a later round
+  /// (FollowedRounds).
+  void Hear(Instant clock, Instant until) {
+    heard_ = std::max(heard_, clock);
+    heard_until_ = std::max(heard_until_, until);
+  }
 
   /// Takes a clock that has arrived; Take() brings it into force.
   void Offer(const PendingClock& offered);
@@ -88,7 +95,9 @@ class SimulatorTime {
   void Restart();
 
   Instant newest() const { return newest_; }  ///< The newest clock that has arrived; else Always().
-  Instant heard() const { return std::max(newest_, heard_); }     ///< Likewise, taken yet or not.
+  /// Likewise, and the greatest told_until(), of clocks that are taken or not.
+  Instant heard() const { return heard_; }
+  Instant heard_until() const { return heard_until_; }
   const std::optional<Instant>& clock() const { return clock_; }  ///< The newest in force.
   /// The one that this service first brought into force.
   const std::optional<Instant>& first_clock() const { return first_clock_; }
@@ -104,6 +113,7 @@ class SimulatorTime {
   PendingClock offered_;  ///< The newest clock that has arrived.
   Instant newest_ = Instant::Always();
   Instant heard_ = Instant::Always();
+  Instant heard_until_ = Instant::Always();
   std::deque<PendingClock> pending_;
   std::optional<Instant> first_clock_;
   std::optional<Instant> clock_;

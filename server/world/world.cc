@@ -182,11 +182,17 @@ std::optional<Instant> World::NextNow() const {
     last = std::max(last, *time.clock());
   }
   if (first.is_never() || !silence_.roster().complete()) return std::nullopt;
+  const Instant limit = LatestNow();
   if (!started_) {
-    if (SimulatorsToCome() > 0) return std::nullopt;
+    if (SimulatorsToCome() > 0 || first > limit) return std::nullopt;
     return told >= first ? std::optional(first) : std::nullopt;
   }
-  if (!RunsInRounds()) return std::max(now_, first);
+  if (!RunsInRounds()) return std::max(now_, std::min(first, limit));
+  if (is_behind()) {
+    const Instant next = std::min(granted_, limit);
+    return next > now_ && told >= next ? std::optional(next) : std::nullopt;
+  }
+  if (granted_ > limit) return std::nullopt;
   // Of those who have no further step the last round is still to be judged.
   if (told < granted_ || (told.is_never() && last <= now_)) return std::nullopt;
   return granted_ > now_ ? std::optional(granted_) : std::nullopt;
@@ -219,71 +225,6 @@ std::optional<std::int64_t> World::NextRelease() const {
   return silence_.NextDue(simulators_, monotonic_ns());
 }
 
-Instant World::NewestClock() const {
-  Instant newest = Instant::Always();
-  Instant slowest = Instant::Never();
-  for (const auto& [id, simulator] : simulators_) {
-    const Instant heard = simulator.time().heard();
-    newest = std::max(newest, heard);
-    if (simulator.alive() && simulator.holds_time()) slowest = std::min(slowest, heard);
-  }
-  if (slowest.is_never()) return newest;
-  return std::min(newest, numeric::AddRoundedUp(slowest, grant_ahead_max_));
-}
-
-/// A grant is at most `grant_ahead_max_s` ahead of now, and now never ahead of a clock that the
-/// service had: by the time at which all follow this service, it has those clocks, too.
-void World::RaiseInheritedGrant() {
-  if (promised_from_ == Instant::Always() || silence_.roster().complete()) return;
-  const Instant newest = std::max(NewestClock(), heard_granted_);
-  promised_from_ =
-      std::max(promised_from_, numeric::AddRoundedUp(std::max(newest, granted_), grant_ahead_max_));
-  silence_.roster().RaiseGrant(promised_from_);
-}
-
-void World::StandBy() {
-  // Whether time waits for those that our journal misses is for the service in force to decide.
-  if (!stands_by_) silence_.roster().GiveUpAll();
-  stands_by_ = true;
-}
-
-void World::HearClock(Simulator* simulator, Instant clock) {
-  simulator->time().Hear(clock);
-  HearGranted(NewestClock());
-}
-
-void World::HearGranted(Instant granted) {
-  if (simulated_) heard_granted_ = std::max(heard_granted_, granted);
-}
-
-void World::TakeOver() {
-  stands_by_ = false;
-  for (auto& [id, simulator] : simulators_) {
-    simulator.TakeOver();
-    simulator.agents().clearances().MarkAllChanged();
-  }
-  if (!simulated_ || NewestClock() == Instant::Always()) return;
-  std::vector<JournalledSimulator> roster;
-  for (auto& [id, simulator] : simulators_) {
-    if (!simulator.holds_time()) continue;
-    // One that is not heard may be there all the same, if this service could not hear it.
-    if (!simulator.alive() && simulator.time().has_finished()) continue;
-    roster.push_back({.id = id, .run = simulator.run(), .name = simulator.name(), .granted = {}});
-  }
-  silence_.AwaitRoster(roster, monotonic_ns());
-  promised_from_ = granted_;
-  RaiseInheritedGrant();
-  ShareGrant();
-}
-
-std::size_t World::followers() const {
-  if (stands_by_) return 0;
-  return static_cast<std::size_t>(
-      std::count_if(simulators_.begin(), simulators_.end(), [](const auto& one) {
-        return one.second.alive() && one.second.follows() && !one.second.has_left();
-      }));
-}
-
 void World::EndRun(Simulator* simulator, EndCause cause) {
   ended_runs_.Add(simulator->id(), simulator->run(), cause);
   simulator->End();
@@ -312,7 +253,7 @@ void World::BeginEpoch() {
   ++epoch_;
   started_ = false;
   now_ = Instant();
-  granted_ = heard_granted_ = promised_from_ = Instant::Always();
+  granted_ = heard_granted_ = status_grant_ = heard_now_ = promised_from_ = Instant::Always();
 }
 
 bool World::FollowEpoch(std::uint32_t epoch) {
@@ -403,6 +344,10 @@ void World::SetClearance(const detection::AgentClearance& clearance) {
 
 void World::UpdateGrants() {
   if (!simulated_ || !started_) return;
+  if (is_behind()) {
+    granted_ = std::max(granted_, status_grant_);
+    return ShareGrant();
+  }
   Instant until = numeric::AddRoundedDown(now_, grant_ahead_max_);
   for (const auto& [id, simulator] : simulators_) {
     until = std::min(until, simulator.agents().clearances().clear_until());

@@ -173,11 +173,18 @@ class World {
 
   bool stands_by() const { return stands_by_; }
 
-  /// Another service has granted so much in this epoch, as its status says.
-  void HearGranted(Instant granted);
+  /// The service in force has come to `now` in this epoch, and granted so much, as its status says.
+  void HearStatus(Instant now, Instant granted);
 
-  /// So has a clock of this simulator that is taken in a later round.
-  void HearClock(Simulator* simulator, Instant clock);
+  /// A clock of this simulator has come that is taken in a later round (SimulatorTime::Hear()): the
+  /// service in force has granted it.
+  void HearClock(Simulator* simulator, Instant clock, Instant until);
+
+  /// Whether this service knows all that the service in force knows, or knew. Until then its time
+  /// goes on no further than that one's did, and it grants nothing beyond its grants: simulators
+  /// may be there of which it has not heard yet. Also after a take-over.
+  void SetCaughtUp(bool caught_up) { is_behind_ = !caught_up; }
+  bool is_behind() const { return simulated_ && is_behind_; }
 
   /// This service serves from now on, in place of the one beside which it stood by. Simulated
   /// clock: time stands until each simulator that lives and holds time has told a clock that
@@ -188,6 +195,9 @@ class World {
   /// Simulators that are there and whose newest clock names this service, or none; 0 while it
   /// stands by.
   std::size_t followers() const;
+
+  /// Agents of simulators that hold time: with their first states they are, or will be, admitted.
+  std::size_t agents_in_time() const;
 
   /// The latest time of which this service knows, as it stands by.
   Instant newest() const { return simulated_ ? std::max(NewestClock(), heard_granted_) : now_; }
@@ -244,6 +254,7 @@ class World {
                     const std::string* name);
   Instant LatestAllowed(const Simulator& simulator) const;
   void BeginWallEpoch();
+  Instant LatestNow() const;
   Instant NewestClock() const;
   void RaiseInheritedGrant();
 
@@ -270,6 +281,9 @@ class World {
   Widenings widenings_;
   std::optional<std::int64_t> woke_ns_;
   bool stands_by_ = false;
+  Instant heard_now_ = Instant::Always();     ///< Of another service, in this epoch, and
+  Instant status_grant_ = Instant::Always();  ///< what it has granted, as its status says.
+  bool is_behind_ = false;
   Instant heard_granted_ = Instant::Always();  ///< By another service.
   Instant promised_from_ = Instant::Always();
 };

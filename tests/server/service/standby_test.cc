@@ -24,7 +24,7 @@ class StandbyOfDaemonTest : public testing::Test {
  protected:
   explicit StandbyOfDaemonTest(DaemonParts parts = {})
       : daemon_(VoyageConfig(), WithClaim(std::move(parts))) {
-    HearOther(1);
+    HearOther({.epoch = 1});
   }
 
   static DaemonParts WithClaim(DaemonParts parts) {
@@ -32,20 +32,28 @@ class StandbyOfDaemonTest : public testing::Test {
     return parts;
   }
 
-  /// A status of the service in force.
-  void HearOther(std::uint32_t epoch, std::int64_t granted_until_ns = 0, std::int64_t now_ns = 0,
-                 const std::string& ended_runs = "") {
+  /// What a status of the service in force says.
+  struct Status {
+    std::uint32_t epoch = 1;
+    std::int64_t now_ns = 0;
+    std::int64_t granted_until_ns = 0;
+    std::uint32_t agents = 0;
+    std::string ended_runs = {};
+  };
+
+  void HearOther(const Status& status) {
     v1::Input input;
     v1::ServiceHeard& heard = *input.mutable_service_heard();
     heard.set_service_id(1);
     heard.set_term(1);
     heard.set_phase(v1::PHASE_SERVING);
     heard.set_followed(true);
-    heard.set_epoch(epoch);
+    heard.set_epoch(status.epoch);
     heard.set_sequence(++sequence_);
-    heard.set_granted_until_ns(granted_until_ns);
-    heard.set_now_ns(now_ns);
-    heard.set_ended_runs(ended_runs);
+    heard.set_granted_until_ns(status.granted_until_ns);
+    heard.set_now_ns(status.now_ns);
+    heard.set_agents(status.agents);
+    heard.set_ended_runs(status.ended_runs);
     daemon_.Step({input});
   }
 
@@ -80,47 +88,86 @@ class StandbyOfDaemonTest : public testing::Test {
 
 // Readers and standbys compare epochs of different services.
 TEST_F(StandbyOfDaemonTest, ItsEpochIsThatOfTheServiceBesideIt) {
-  HearOther(3);
+  HearOther({.epoch = 3});
   EXPECT_EQ(daemon_.status().phase(), v1::PHASE_STANDBY);
   EXPECT_EQ(epoch(), 3u);
-  HearOther(4);
+  HearOther({.epoch = 4});
   EXPECT_EQ(epoch(), 4u) << "before time begins";
-  HearOther(2);
+  HearOther({.epoch = 2});
   EXPECT_EQ(epoch(), 4u);
   const Voyage run;
   daemon_.Step(run.Told(0), 0.01);
-  HearOther(9);
+  HearOther({.epoch = 9});
   EXPECT_EQ(epoch(), 4u) << "its own time has begun";
 }
 
 // Goal:   what the other service granted in an epoch that is over holds nobody in the next one.
 TEST_F(StandbyOfDaemonTest, GrantsOfAnEpochThatIsOverDoNotCount) {
-  HearOther(1, 1000 * kSecond);
+  HearOther({.granted_until_ns = 1000 * kSecond});
   Voyage run;
   daemon_.Step(run.Told(0), 0.01);
   daemon_.Step(Joined(run.Removals(), {run.End()}), 0.01);
   ASSERT_EQ(epoch(), 2u);
   run = {.sender = 2, .run = 2};
   daemon_.Step(run.Told(0), 0.01);
-  HearOther(1, 1000 * kSecond);  // late
+  HearOther({.granted_until_ns = 1000 * kSecond});  // late
   EndOther();
   daemon_.Step(run.ToldTo(2, 0), 0.01);
   EXPECT_LT(EffectiveFrom("alpha"), 100 * kSecond);
 }
 
+// Goal:   one that joins a running world, and has heard of its slowest simulator only, is never ahead
+//         of the service in force, nor once it serves, until it knows as many agents.
+TEST_F(StandbyOfDaemonTest, IsNeverAheadOfTheOtherServiceWhileItDoesNotKnowAll) {
+  const Voyage slow{.in_rounds = true};
+  const auto slow_told_to = [&](std::uint64_t service) {
+    std::vector<v1::Input> inputs = slow.ToldTo(service, 0);
+    inputs.back().mutable_simulator_clock()->set_next_ns(3600 * kSecond);
+    return inputs;
+  };
+  const auto pass = [this](std::vector<v1::Input> inputs) {
+    for (int i = 0; i < 20; ++i) daemon_.Step(std::exchange(inputs, {}), 0.01);
+    return daemon_.status().now_ns();
+  };
+  HearOther({.now_ns = 5 * kTenth, .granted_until_ns = 6 * kTenth, .agents = 4});
+  EXPECT_LE(pass(slow_told_to(1)), 5 * kTenth);
+  EXPECT_EQ(Extension(daemon_.status(), "standby"), "not ready yet");
+  HearOther({.now_ns = 6 * kTenth, .granted_until_ns = 7 * kTenth, .agents = 4});
+  EXPECT_EQ(pass({}), 6 * kTenth) << "it goes on as the other one does";
+  EndOther();
+  EXPECT_EQ(pass(slow_told_to(2)), 6 * kTenth);
+  EXPECT_EQ(daemon_.clearance(SimulatorId("alpha")).granted_until_ns(), 7 * kTenth);
+  const Voyage late{
+      .simulator = "beta", .sender = 2, .first_clock_ns = 7 * kTenth, .in_rounds = true};
+  for (int step = 0; step <= kSteps; ++step) daemon_.Step(late.ToldTo(2, step), 0.01);
+  EXPECT_GE(pass({}), 16 * kTenth);
+}
+
+// Goal:   but not for ever: those that have not come by then are gone.
+TEST_F(StandbyOfDaemonTest, WaitsForAgentsThatTheOtherServiceHadForALimitedTime) {
+  HearOther({.now_ns = 0, .granted_until_ns = kTenth, .agents = 4});
+  const Voyage run;
+  daemon_.Step(run.Told(0), 0.01);
+  EndOther();
+  daemon_.Step(run.ToldTo(2, 5), 1);
+  EXPECT_EQ(daemon_.status().now_ns(), 0);
+  daemon_.Step(run.ToldTo(2, 6), 5);
+  EXPECT_EQ(daemon_.status().now_ns(), 6 * kTenth);
+}
+
 // Goal:   readiness is of one epoch.
 TEST_F(StandbyOfDaemonTest, IsReadyAnewInEachEpoch) {
   const auto standby = [this] { return Extension(daemon_.status(), "standby"); };
-  HearOther(1);
+  HearOther({.epoch = 1});
   EXPECT_EQ(standby(), "ready") << "there is nothing to know";
   const Voyage run;
   daemon_.Step(run.Told(0), 0.01);
   daemon_.Step(Joined(run.Removals(), {run.End()}), 0.01);
   ASSERT_EQ(epoch(), 2u);
   EXPECT_EQ(standby(), "not ready yet");
-  HearOther(1, 0, 1000 * kSecond);
+  HearOther({.now_ns = 1000 * kSecond});
   EXPECT_EQ(standby(), "not ready yet") << "a status of the epoch that is over";
-  HearOther(2);
+  HearOther({.epoch = 2});
   EXPECT_EQ(standby(), "ready");
 }
 
@@ -165,7 +212,7 @@ TEST_F(StandbyOfDaemonTest, RunsThatTheOtherServiceHasEndedNeverComeBack) {
   const Voyage evicted{.run = 3};
   daemon_.Step(evicted.Told(0), 0.01);
   EXPECT_EQ(daemon_.status().agents(), 2u);
-  HearOther(1, 0, 0, IdText(SimulatorId("alpha")) + ":3:evicted");
+  HearOther({.ended_runs = IdText(SimulatorId("alpha")) + ":3:evicted"});
   EXPECT_EQ(daemon_.status().agents(), 0u);
   EXPECT_EQ(daemon_.counter("simulators_evicted"), 1u);
   EndOther();
@@ -207,7 +254,7 @@ TEST(StandbyOfAQuietWorld, OpensTheJournalOnceTheOtherServiceHasLetGo) {
 class OneBesideAnotherTest : public StandbyOfDaemonTest {
  protected:
   OneBesideAnotherTest() {
-    HearOther(1, 2 * kSecond);
+    HearOther({.granted_until_ns = kTenth});
     daemon_.Step(Joined(honest_.Told(0), other_.Told(0)), 0.01);
   }
 
@@ -225,7 +272,7 @@ TEST_F(OneBesideAnotherTest, AClockBeyondAnyGrantHoldsNobody) {
   for (int step = 0; step <= kSteps; ++step) {
     daemon_.Step(Joined(honest_.ToldTo(2, step), other_.ToldTo(2, step)), 0.01);
   }
-  EXPECT_LE(EffectiveFrom("alpha"), 20 * kSecond);
+  EXPECT_LE(EffectiveFrom("alpha"), 21 * kSecond);
   EXPECT_EQ(daemon_.status().now_ns(), kSteps * kTenth);
   EXPECT_EQ(Extension(daemon_.status(), "waiting_for"), "");
 }
@@ -239,7 +286,7 @@ TEST_F(OneBesideAnotherTest, AClockBeyondAnyGrantAfterTheTakeOverHoldsNoOther) {
   for (int step = 0; step <= kSteps; ++step) {
     daemon_.Step(Joined(honest_.ToldTo(2, step), {From(2, far)}), 0.01);
   }
-  EXPECT_LE(EffectiveFrom("alpha"), 20 * kSecond);
+  EXPECT_LE(EffectiveFrom("alpha"), 21 * kSecond);
   EXPECT_EQ(daemon_.status().now_ns(), kSteps * kTenth);
 }
 

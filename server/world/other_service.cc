@@ -1,0 +1,102 @@
+// The world of a service that stands by beside another one, or has taken over from it.
+#include <algorithm>
+#include <vector>
+
+#include "collision_core/numeric/seconds.h"
+#include "server/world/world.h"
+
+namespace collision::server {
+
+void World::StandBy() {
+  // Whether time waits for those that our journal misses is for the service in force to decide.
+  if (!stands_by_) {
+    silence_.roster().GiveUpAll();
+    is_behind_ = true;
+  }
+  stands_by_ = true;
+}
+
+void World::HearClock(Simulator* simulator, Instant clock, Instant until) {
+  simulator->time().Hear(clock, until);
+  heard_granted_ = std::max(heard_granted_, NewestClock());
+}
+
+void World::HearStatus(Instant now, Instant granted) {
+  if (!simulated_) return;
+  heard_now_ = std::max(heard_now_, now);
+  status_grant_ = std::max(status_grant_, granted);
+  heard_granted_ = std::max(heard_granted_, granted);
+}
+
+void World::TakeOver() {
+  stands_by_ = false;
+  for (auto& [id, simulator] : simulators_) {
+    simulator.TakeOver();
+    simulator.agents().clearances().MarkAllChanged();
+  }
+  if (!simulated_ || NewestClock() == Instant::Always()) return;
+  std::vector<JournalledSimulator> roster;
+  for (auto& [id, simulator] : simulators_) {
+    if (!simulator.holds_time()) continue;
+    // One that is not heard may be there all the same, if this service could not hear it.
+    if (!simulator.alive() && simulator.time().has_finished()) continue;
+    roster.push_back({.id = id, .run = simulator.run(), .name = simulator.name(), .granted = {}});
+  }
+  silence_.AwaitRoster(roster, monotonic_ns());
+  promised_from_ = granted_;
+  RaiseInheritedGrant();
+  ShareGrant();
+}
+
+std::size_t World::agents_in_time() const {
+  std::size_t count = 0;
+  for (const auto& [id, simulator] : simulators_) {
+    if (simulator.holds_time()) count += simulator.agents().size();
+  }
+  return count;
+}
+
+std::size_t World::followers() const {
+  if (stands_by_) return 0;
+  return static_cast<std::size_t>(
+      std::count_if(simulators_.begin(), simulators_.end(), [](const auto& one) {
+        return one.second.alive() && one.second.follows() && !one.second.has_left();
+      }));
+}
+
+Instant World::NewestClock() const {
+  Instant newest = Instant::Always();
+  Instant slowest = Instant::Never();
+  for (const auto& [id, simulator] : simulators_) {
+    const Instant heard = simulator.time().heard();
+    newest = std::max(newest, heard);
+    if (simulator.alive() && simulator.holds_time())
+      slowest = std::min(slowest, simulator.time().heard_until());
+  }
+  if (slowest.is_never()) return newest;
+  return std::min(newest, numeric::AddRoundedUp(slowest, grant_ahead_max_));
+}
+
+/// A grant is at most `grant_ahead_max_s` ahead of now, and now never ahead of what a clock told
+/// that the service had: by the time at which all follow this service, it has those clocks, too.
+void World::RaiseInheritedGrant() {
+  if (promised_from_ == Instant::Always() || silence_.roster().complete()) return;
+  const Instant newest = std::max(NewestClock(), heard_granted_);
+  promised_from_ =
+      std::max(promised_from_, numeric::AddRoundedUp(std::max(newest, granted_), grant_ahead_max_));
+  silence_.roster().RaiseGrant(promised_from_);
+}
+
+/// A service that stands by is not ahead of the one in force: one of which this has not heard yet
+/// may hold time there.
+Instant World::LatestNow() const {
+  if (is_behind()) return heard_now_;
+  if (!stands_by_) return Instant::Never();
+  Instant newest = heard_now_;
+  for (const auto& [id, simulator] : simulators_) {
+    newest = std::max(newest, simulator.time().heard());
+  }
+  return newest;
+}
+
+}  // namespace collision::server
