@@ -49,6 +49,7 @@ const Wire& As(const void* sample) {
 constexpr std::size_t kEndedServicesMax = 64;
 
 void AddServiceEnd(std::uint64_t service, std::vector<v1::Input>* inputs) {
+  if (inputs == nullptr) return;
   v1::ServiceHeard& heard = *inputs->emplace_back().mutable_service_heard();
   heard.set_service_id(service);
   heard.set_ended(true);
@@ -181,7 +182,8 @@ void Intake::FollowService(const void* sample, const dds_sample_info_t& info, bo
                            std::vector<v1::Input>* inputs) {
   v1::Input heard;
   FromWire(TopicId::kServiceStatus, sample, &heard);
-  if (ended_services_.erase(info.publication_handle) > 0 && is_output) inputs->push_back(heard);
+  const bool is_back = ended_services_.erase(info.publication_handle) > 0;
+  if (is_back && is_output && inputs != nullptr) inputs->push_back(heard);
   services_[info.publication_handle] = heard.service_heard();
   // A status may outlast its writer in the reader: its end comes after it.
   if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) EndService(info.publication_handle, inputs);
@@ -202,7 +204,7 @@ void Intake::Follow(const std::vector<WriterChange>& changes, std::vector<v1::In
     }
     if (!change.alive && ended_services_.contains(change.writer)) continue;
     if (auto back = ended_services_.extract(change.writer)) {
-      *inputs->emplace_back().mutable_service_heard() = back.mapped();
+      if (inputs != nullptr) *inputs->emplace_back().mutable_service_heard() = back.mapped();
       services_.insert(std::move(back));
       continue;
     }

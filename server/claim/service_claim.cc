@@ -17,7 +17,8 @@ constexpr std::uint32_t kUnknownTerm = std::numeric_limits<std::uint32_t>::max()
 
 std::string NameOf(const HeardService& service) {
   const std::string process = service.process.empty() ? "" : " (" + service.process + ")";
-  return fmt::format("service {}{}, term {}", IdText(service.instance), process, service.term);
+  const std::string name = "service " + IdText(service.instance) + process;
+  return service.term == kUnknownTerm ? name : fmt::format("{}, term {}", name, service.term);
 }
 
 void ServiceClaim::Hear(const HeardService& heard, std::int64_t now_ns) {

@@ -101,12 +101,26 @@ void InheritedEvents::Keep(const Event& contact) {
 void InheritedEvents::DropTold(const Pair& pair) {
   const auto of_pair = untold_of_.find(pair);
   if (of_pair == untold_of_.end()) return;
-  std::erase_if(of_pair->second, [this](Untold::iterator contact) {
-    if (!IsTold(*contact)) return false;
+  Drop(&of_pair->second, [this](const Event& contact) { return IsTold(contact); });
+  if (of_pair->second.empty()) untold_of_.erase(of_pair);
+}
+
+void InheritedEvents::DropUndecided(Instant before) {
+  for (auto& [pair, contacts] : untold_of_) {
+    Drop(&contacts, [before](const Event& contact) {
+      return contact.status == detection::EventStatus::kUndecided && contact.end.latest <= before;
+    });
+  }
+  std::erase_if(untold_of_, [](const auto& of_pair) { return of_pair.second.empty(); });
+}
+
+template <typename Predicate>
+void InheritedEvents::Drop(std::deque<Untold::iterator>* contacts, const Predicate& is_dropped) {
+  std::erase_if(*contacts, [&](Untold::iterator contact) {
+    if (!is_dropped(*contact)) return false;
     untold_.erase(contact);
     return true;
   });
-  if (of_pair->second.empty()) untold_of_.erase(of_pair);
 }
 
 void InheritedEvents::DropOldest() {

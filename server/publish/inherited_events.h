@@ -53,6 +53,10 @@ class InheritedEvents {
   /// This service, standing by, would publish this contact.
   void Keep(const detection::CollisionEvent& contact);
 
+  /// Drops kept contacts that are over before this and were never certain: a service that did not
+  /// miss any state has not found them.
+  void DropUndecided(Instant before);
+
   /// It takes over: the contacts that have not been published, in their order.
   std::vector<detection::CollisionEvent> TakeUntold();
 
@@ -82,6 +86,8 @@ class InheritedEvents {
 
   bool IsTold(const Event& contact);
   void DropTold(const Pair& pair);
+  template <typename Predicate>
+  void Drop(std::deque<Untold::iterator>* contacts, const Predicate& is_dropped);
   void DropOldest();
 
   std::uint32_t epoch_ = 1;  ///< Of what was heard.

@@ -47,6 +47,10 @@ class Publisher {
   /// (ServiceClaim::speaks()) it takes note of the events of another one.
   void Hear(const v1::Input& input);
 
+  /// As it stands by: what the service in force has not told of the time before this, it has found
+  /// not to be. What this one found there and could not decide is dropped.
+  void ForgetUndecided(Instant before) { inherited_.DropUndecided(before); }
+
   /// This service has taken over and speaks from now on: publishes the contacts that the other one
   /// has not, and what stands told of pairs whose event is not over; readers know which of these
   /// they have heard. Call it before the events of a step.

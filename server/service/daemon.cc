@@ -210,7 +210,10 @@ class Daemon::Implementation {
     for (const EndedRun& ended : EndedRunsIn(heard.ended_runs())) intake_.FollowEnd(ended);
     const bool is_past = world_.simulated() && heard.epoch() < world_.epoch();
     if (claim_.phase() != ClaimPhase::kStandby || is_past) return;
-    if (services_.HearProgress(heard, detector_.agents(), world_.newest())) schedule_.Hasten();
+    if (services_.HearProgress(heard, detector_.agents(), world_.newest())) {
+      publisher_.ForgetUndecided(Instant::FromNanoseconds(heard.now_ns()));
+      schedule_.Hasten();
+    }
     world_.SetCaughtUp(services_.is_ready());
   }
 
@@ -296,6 +299,7 @@ class Daemon::Implementation {
 
   /// Tells of each simulator that the world's time waits for, or goes on without.
   void ReportSilence(const std::vector<std::string>& released) {
+    if (claim_.phase() != ClaimPhase::kServing) return;
     if (silence_report_.TakeWaited(world_.Waited())) schedule_.Hasten();
     silence_report_.AddReleased(released);
     silence_report_.Write(world_.monotonic_ns());

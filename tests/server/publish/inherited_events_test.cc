@@ -194,6 +194,27 @@ TEST(InheritedEvents, WhatIsHeardCostsNothingForOtherPairs) {
     EXPECT_EQ(untold[i].higher.slot, 2 + i) << "in their order";
 }
 
+// A standby that stood still has missed states, and cannot exclude what the other one could.
+TEST(InheritedEvents, WhatIsOverAndWasNeverCertainIsDroppedOnceTheOtherServiceIsBeyondIt) {
+  InheritedEvents events;
+  const auto undecided = [](std::int64_t begin_ns, std::uint32_t slot) {
+    CollisionEvent event = Found(1, EventStatus::kUndecided, begin_ns);
+    event.higher.slot = slot;
+    event.end.latest = Instant::FromNanoseconds(begin_ns + 50);
+    return event;
+  };
+  events.Keep(undecided(100, 3));
+  events.Keep(undecided(151, 4));
+  events.Keep(Found(1, EventStatus::kConfirmed, 100));
+  events.Keep(Found(2, EventStatus::kEnded, 120));
+  events.DropUndecided(Instant::FromNanoseconds(200));
+  const std::vector<CollisionEvent> untold = events.TakeUntold();
+  ASSERT_EQ(untold.size(), 3u);
+  EXPECT_EQ(untold[0].higher.slot, 4u);
+  EXPECT_EQ(untold[1].status, EventStatus::kConfirmed);
+  EXPECT_EQ(untold[2].status, EventStatus::kEnded);
+}
+
 v1::CollisionEvent InEpoch(std::uint32_t epoch, v1::CollisionEvent event) {
   event.mutable_stamp()->set_epoch(epoch);
   return event;

@@ -116,8 +116,8 @@ TEST_F(StandbyOfDaemonTest, GrantsOfAnEpochThatIsOverDoNotCount) {
   EXPECT_LT(EffectiveFrom("alpha"), 100 * kSecond);
 }
 
-// Goal:   one that joins a running world, and has heard of its slowest simulator only, is never ahead
-//         of the service in force, nor once it serves, until it knows as many agents.
+// Goal:   one that joins a running world, and has heard of its slowest simulator only, is never
+//         ahead of the service in force, nor once it serves, until it knows as many agents.
 TEST_F(StandbyOfDaemonTest, IsNeverAheadOfTheOtherServiceWhileItDoesNotKnowAll) {
   const Voyage slow{.in_rounds = true};
   const auto slow_told_to = [&](std::uint64_t service) {
