@@ -90,7 +90,6 @@ class Daemon::Implementation {
     if (gap_ns > ToNanoseconds(config_.status_period_s()) + kStoodStill) {
       world_.WakeUp();
       services_.ForgetProgress();
-      if (claim_.phase() == ClaimPhase::kStandby) world_.SetCaughtUp(false);
     }
     claim_.WakeUp(gap_ns, world_.monotonic_ns());
     if (claim_.phase() == ClaimPhase::kServing) bus_.EndHold(true);
@@ -186,9 +185,6 @@ class Daemon::Implementation {
     services_.Write(claim_.Conflicts(now_ns), now_ns);
     intake_.SetContended(claim_.IsContended(now_ns));
     if (claim_.phase() != before) ChangePhase(before);
-    if (claim_.phase() == ClaimPhase::kServing && world_.is_behind()) {
-      world_.SetCaughtUp(services_.MayGoOn(world_.agents_in_time(), now_ns));
-    }
     if (claim_.phase() == ClaimPhase::kStandby) rounds_.StandBy();
     bus_.HoldAfter(std::chrono::nanoseconds(claim_.hold_after_ns()));
     return claim_.phase() != ClaimPhase::kYielded;
@@ -203,10 +199,8 @@ class Daemon::Implementation {
       return;
     if (!advanced_to_ && world_.FollowEpoch(heard.epoch()))
       publisher_.BeginEpoch(world_.epoch(), world_);
-    if (heard.epoch() == world_.epoch()) {
-      world_.HearStatus(Instant::FromNanoseconds(heard.now_ns()),
-                        Instant::FromNanoseconds(heard.granted_until_ns()));
-    }
+    if (heard.epoch() == world_.epoch())
+      world_.HearGranted(Instant::FromNanoseconds(heard.granted_until_ns()));
     for (const EndedRun& ended : EndedRunsIn(heard.ended_runs())) intake_.FollowEnd(ended);
     const bool is_past = world_.simulated() && heard.epoch() < world_.epoch();
     if (claim_.phase() != ClaimPhase::kStandby || is_past) return;
@@ -214,7 +208,6 @@ class Daemon::Implementation {
       publisher_.ForgetUndecided(Instant::FromNanoseconds(heard.now_ns()));
       schedule_.Hasten();
     }
-    world_.SetCaughtUp(services_.is_ready());
   }
 
   void ChangePhase(ClaimPhase before) {
@@ -308,6 +301,10 @@ class Daemon::Implementation {
   /// Brings into effect what was told, moves the world's time as far as it may go, and detects.
   void MoveOn(bool inputs) {
     if (!claim_.works()) return;
+    if (world_.awaits_others() &&
+        services_.MayBegin(world_.agents_in_time(), world_.monotonic_ns())) {
+      world_.Begin();
+    }
     if (!world_.RunsInRounds()) {
       intake_.Enact();
       world_.MoveOn();

@@ -54,19 +54,24 @@ void ServiceReport::Write(const std::vector<std::string>& conflicts, std::int64_
   for (NamesLog* log : {&gone_, &standbys_, &serving_, &configured_otherwise_}) log->Write(now_ns);
 }
 
-void ServiceReport::LogTakeOver(std::int64_t now_ns) {
-  took_over_ns_ = now_ns;
+void ServiceReport::LogTakeOver(std::int64_t now_ns) const {
   if (served_.service_id() == 0) return spdlog::info("takes over: no service serves this world");
   spdlog::info(
       "takes over from {}: it has ended, or was not heard for its lease; its last status came "
       "{:.2f} s ago",
       NameOf(HeardOf(served_)), 1e-9 * static_cast<double>(now_ns - served_ns_));
   if (!readiness_.ready()) {
-    spdlog::warn(
-        "was not ready to take over: what the other one had not told may be lost; time goes on "
-        "once its {} agents are known here, or after {} s",
-        served_.agents(), kCatchUpMaxNs / 1'000'000'000);
+    spdlog::warn("was not ready to take over: what the other one had not told may be lost");
   }
+}
+
+bool ServiceReport::MayBegin(std::size_t agents, std::int64_t now_ns) {
+  if (agents == 0) return false;
+  if (!awaits_since_ns_) awaits_since_ns_ = now_ns;
+  const bool knows_all = served_.service_id() != 0 && agents >= served_.agents();
+  if (!knows_all && now_ns - *awaits_since_ns_ < kAwaitOthersNs) return false;
+  awaits_since_ns_.reset();
+  return true;
 }
 
 void ServiceReport::AddExtensions(bool stands_by, std::vector<v1::KeyValue>* extensions) const {

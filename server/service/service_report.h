@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@
 namespace collision::server {
 
 /// DDS has told a newcomer by then of all who are there; their clients wait longer for a grant.
-inline constexpr std::int64_t kCatchUpMaxNs = 5'000'000'000;
+inline constexpr std::int64_t kAwaitOthersNs = 5'000'000'000;
 
 /// Keeps what was heard of other services: a line for each that begins to serve or to stand by, or
 /// is gone; one for each that is configured otherwise, so that results change with a take-over; and
@@ -36,23 +37,17 @@ class ServiceReport {
   /// Time begins anew, or this process has stood still: of what the other service has not told,
   /// nothing is known yet.
   void ForgetProgress() { readiness_ = {}; }
-  bool is_ready() const { return readiness_.ready(); }
-
-  /// The newest status of a service that served; empty: there was none.
-  const v1::ServiceHeard& served() const { return served_; }
 
   /// Writes what is new, and ServiceClaim::Conflicts().
   void Write(const std::vector<std::string>& conflicts, std::int64_t now_ns);
 
   /// This service takes over: writes from which one, for how long that one has been silent, and
   /// whether this one was not ready.
-  void LogTakeOver(std::int64_t now_ns);
+  void LogTakeOver(std::int64_t now_ns) const;
 
-  /// After it has taken over without being ready: whether it knows as many agents as the other
-  /// service did, or has waited for kCatchUpMaxNs.
-  bool MayGoOn(std::size_t agents, std::int64_t now_ns) const {
-    return agents >= served_.agents() || now_ns - took_over_ns_ >= kCatchUpMaxNs;
-  }
+  /// Whether time may begin here as it has in the service that serves, or served: as many agents
+  /// are known here, or the first ones since kAwaitOthersNs.
+  bool MayBegin(std::size_t agents, std::int64_t now_ns);
 
   /// ConfigurationDigest() of this service.
   std::uint64_t configuration() const { return configuration_; }
@@ -69,7 +64,7 @@ class ServiceReport {
   std::map<std::uint64_t, v1::ServiceHeard> others_;  ///< At most kOthersMax; further are not told.
   v1::ServiceHeard served_;                           ///< The newest status of one that served.
   std::int64_t served_ns_ = 0;                        ///< When it was heard.
-  std::int64_t took_over_ns_ = 0;
+  std::optional<std::int64_t> awaits_since_ns_;
   NamesLog standbys_{"{} has become a standby in this world", spdlog::level::info};
   NamesLog serving_{"{} serves this world", spdlog::level::info};
   NamesLog gone_{"{} is gone: it has ended, or was not heard for its lease", spdlog::level::info};

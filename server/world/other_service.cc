@@ -11,7 +11,7 @@ void World::StandBy() {
   // Whether time waits for those that our journal misses is for the service in force to decide.
   if (!stands_by_) {
     silence_.roster().GiveUpAll();
-    is_behind_ = true;
+    awaits_others_ = true;
   }
   stands_by_ = true;
 }
@@ -19,13 +19,6 @@ void World::StandBy() {
 void World::HearClock(Simulator* simulator, Instant clock, Instant until) {
   simulator->time().Hear(clock, until);
   heard_granted_ = std::max(heard_granted_, NewestClock());
-}
-
-void World::HearStatus(Instant now, Instant granted) {
-  if (!simulated_) return;
-  heard_now_ = std::max(heard_now_, now);
-  status_grant_ = std::max(status_grant_, granted);
-  heard_granted_ = std::max(heard_granted_, granted);
 }
 
 void World::TakeOver() {
@@ -85,18 +78,6 @@ void World::RaiseInheritedGrant() {
   promised_from_ =
       std::max(promised_from_, numeric::AddRoundedUp(std::max(newest, granted_), grant_ahead_max_));
   silence_.roster().RaiseGrant(promised_from_);
-}
-
-/// A service that stands by is not ahead of the one in force: one of which this has not heard yet
-/// may hold time there.
-Instant World::LatestNow() const {
-  if (is_behind()) return heard_now_;
-  if (!stands_by_) return Instant::Never();
-  Instant newest = heard_now_;
-  for (const auto& [id, simulator] : simulators_) {
-    newest = std::max(newest, simulator.time().heard());
-  }
-  return newest;
 }
 
 }  // namespace collision::server

@@ -182,17 +182,11 @@ std::optional<Instant> World::NextNow() const {
     last = std::max(last, *time.clock());
   }
   if (first.is_never() || !silence_.roster().complete()) return std::nullopt;
-  const Instant limit = LatestNow();
   if (!started_) {
-    if (SimulatorsToCome() > 0 || first > limit) return std::nullopt;
+    if (SimulatorsToCome() > 0 || awaits_others()) return std::nullopt;
     return told >= first ? std::optional(first) : std::nullopt;
   }
-  if (!RunsInRounds()) return std::max(now_, std::min(first, limit));
-  if (is_behind()) {
-    const Instant next = std::min(granted_, limit);
-    return next > now_ && told >= next ? std::optional(next) : std::nullopt;
-  }
-  if (granted_ > limit) return std::nullopt;
+  if (!RunsInRounds()) return std::max(now_, first);
   // Of those who have no further step the last round is still to be judged.
   if (told < granted_ || (told.is_never() && last <= now_)) return std::nullopt;
   return granted_ > now_ ? std::optional(granted_) : std::nullopt;
@@ -253,7 +247,7 @@ void World::BeginEpoch() {
   ++epoch_;
   started_ = false;
   now_ = Instant();
-  granted_ = heard_granted_ = status_grant_ = heard_now_ = promised_from_ = Instant::Always();
+  granted_ = heard_granted_ = promised_from_ = Instant::Always();
 }
 
 bool World::FollowEpoch(std::uint32_t epoch) {
@@ -344,10 +338,6 @@ void World::SetClearance(const detection::AgentClearance& clearance) {
 
 void World::UpdateGrants() {
   if (!simulated_ || !started_) return;
-  if (is_behind()) {
-    granted_ = std::max(granted_, status_grant_);
-    return ShareGrant();
-  }
   Instant until = numeric::AddRoundedDown(now_, grant_ahead_max_);
   for (const auto& [id, simulator] : simulators_) {
     until = std::min(until, simulator.agents().clearances().clear_until());

@@ -173,18 +173,19 @@ class World {
 
   bool stands_by() const { return stands_by_; }
 
-  /// The service in force has come to `now` in this epoch, and granted so much, as its status says.
-  void HearStatus(Instant now, Instant granted);
+  /// Another service has granted so much in this epoch, as its status says.
+  void HearGranted(Instant granted) {
+    if (simulated_) heard_granted_ = std::max(heard_granted_, granted);
+  }
 
   /// A clock of this simulator has come that is taken in a later round (SimulatorTime::Hear()): the
   /// service in force has granted it.
   void HearClock(Simulator* simulator, Instant clock, Instant until);
 
-  /// Whether this service knows all that the service in force knows, or knew. Until then its time
-  /// goes on no further than that one's did, and it grants nothing beyond its grants: simulators
-  /// may be there of which it has not heard yet. Also after a take-over.
-  void SetCaughtUp(bool caught_up) { is_behind_ = !caught_up; }
-  bool is_behind() const { return simulated_ && is_behind_; }
+  /// It stands by, or has taken over, and time has not begun here: it does not before Begin(),
+  /// since simulators may be there that hold time and of which this service has not heard yet.
+  bool awaits_others() const { return simulated_ && awaits_others_ && !started_; }
+  void Begin() { awaits_others_ = false; }
 
   /// This service serves from now on, in place of the one beside which it stood by. Simulated
   /// clock: time stands until each simulator that lives and holds time has told a clock that
@@ -254,7 +255,6 @@ class World {
                     const std::string* name);
   Instant LatestAllowed(const Simulator& simulator) const;
   void BeginWallEpoch();
-  Instant LatestNow() const;
   Instant NewestClock() const;
   void RaiseInheritedGrant();
 
@@ -281,9 +281,7 @@ class World {
   Widenings widenings_;
   std::optional<std::int64_t> woke_ns_;
   bool stands_by_ = false;
-  Instant heard_now_ = Instant::Always();     ///< Of another service, in this epoch, and
-  Instant status_grant_ = Instant::Always();  ///< what it has granted, as its status says.
-  bool is_behind_ = false;
+  bool awaits_others_ = false;
   Instant heard_granted_ = Instant::Always();  ///< By another service.
   Instant promised_from_ = Instant::Always();
 };
