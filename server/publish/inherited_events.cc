@@ -53,6 +53,7 @@ bool IsContact(const v1::CollisionEvent& event) { return event.contacts_sequence
 void InheritedEvents::BeginEpoch(std::uint32_t epoch) {
   untold_.clear();
   untold_of_.clear();
+  decided_before_ = Instant::Always();
   if (epoch <= epoch_) return;
   epoch_ = epoch;
   pairs_.Clear();
@@ -106,10 +107,9 @@ void InheritedEvents::DropTold(const Pair& pair) {
 }
 
 void InheritedEvents::DropUndecided(Instant before) {
+  decided_before_ = std::max(decided_before_, before);
   for (auto& [pair, contacts] : untold_of_) {
-    Drop(&contacts, [before](const Event& contact) {
-      return contact.status == detection::EventStatus::kUndecided && contact.end.latest <= before;
-    });
+    Drop(&contacts, [this](const Event& contact) { return IsTold(contact); });
   }
   std::erase_if(untold_of_, [](const auto& of_pair) { return of_pair.second.empty(); });
 }
@@ -165,13 +165,12 @@ std::uint32_t InheritedEvents::NumberOf(const Event& event) {
 
 /// Whether readers know as much of it, or a later contact of its pair.
 bool InheritedEvents::IsTold(const Event& contact) {
+  const bool undecided = contact.status == detection::EventStatus::kUndecided;
+  if (undecided && contact.end.latest <= decided_before_) return true;
   const Heard* heard = pairs_.Find({contact.lower, contact.higher});
   if (heard == nullptr) return false;
   // The other service knew more states, and has found that there was no contact.
-  if (contact.status == detection::EventStatus::kUndecided &&
-      contact.end.latest.nanoseconds() <= heard->free_until_ns) {
-    return true;
-  }
+  if (undecided && contact.end.latest.nanoseconds() <= heard->free_until_ns) return true;
   if (!IsContact(heard->contact)) return false;
   const Times ours = TimesOf(contact), theirs = TimesOf(heard->contact);
   if (!Meet(ours, theirs)) return ours.earliest < theirs.earliest;

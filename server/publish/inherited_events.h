@@ -53,8 +53,8 @@ class InheritedEvents {
   /// This service, standing by, would publish this contact.
   void Keep(const detection::CollisionEvent& contact);
 
-  /// Drops kept contacts that are over before this and were never certain: a service that did not
-  /// miss any state has not found them.
+  /// Contacts that are over before this and were never certain are dropped from now on, and those
+  /// that are kept: a service that did not miss any state has not found them.
   void DropUndecided(Instant before);
 
   /// It takes over: the contacts that have not been published, in their order.
@@ -90,7 +90,8 @@ class InheritedEvents {
   void Drop(std::deque<Untold::iterator>* contacts, const Predicate& is_dropped);
   void DropOldest();
 
-  std::uint32_t epoch_ = 1;  ///< Of what was heard.
+  std::uint32_t epoch_ = 1;                     ///< Of what was heard.
+  Instant decided_before_ = Instant::Always();  ///< By the other service: DropUndecided().
   RecentMap<Pair, Heard> pairs_{kPairsMax};
   std::deque<v1::CollisionEvent> told_;
   Untold untold_;

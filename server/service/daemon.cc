@@ -203,7 +203,7 @@ class Daemon::Implementation {
       world_.HearGranted(Instant::FromNanoseconds(heard.granted_until_ns()));
     for (const EndedRun& ended : EndedRunsIn(heard.ended_runs())) intake_.FollowEnd(ended);
     const bool is_past = world_.simulated() && heard.epoch() < world_.epoch();
-    if (claim_.phase() != ClaimPhase::kStandby || is_past) return;
+    if (claim_.phase() != ClaimPhase::kStandby || is_past || world_.IsWaking()) return;
     if (services_.HearProgress(heard, detector_.agents(), world_.newest())) {
       publisher_.ForgetUndecided(Instant::FromNanoseconds(heard.now_ns()));
       schedule_.Hasten();

@@ -208,6 +208,7 @@ TEST(InheritedEvents, WhatIsOverAndWasNeverCertainIsDroppedOnceTheOtherServiceIs
   events.Keep(Found(1, EventStatus::kConfirmed, 100));
   events.Keep(Found(2, EventStatus::kEnded, 120));
   events.DropUndecided(Instant::FromNanoseconds(200));
+  events.Keep(undecided(90, 5));
   const std::vector<CollisionEvent> untold = events.TakeUntold();
   ASSERT_EQ(untold.size(), 3u);
   EXPECT_EQ(untold[0].higher.slot, 4u);
