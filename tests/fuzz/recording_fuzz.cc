@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "server/config/config.h"
 #include "server/recording/recording.h"
@@ -39,7 +40,9 @@ void FuzzRecording(Bytes bytes) {
       return;
     }
     server::ReplaySource source(reader, CheckOutput);
-    server::Daemon daemon(reader.config(), source, source, {.claim = reader.claim()});
+    server::DaemonParts parts;
+    parts.claim = reader.claim();
+    server::Daemon daemon(reader.config(), source, source, std::move(parts));
     for (int step = 0; step < kStepsMax && daemon.Step(); ++step) {
     }
     Require(reader.error().empty() || reader.error().starts_with(file.path()),
