@@ -88,7 +88,9 @@ RunHashes Replay(const std::string& recording) {
   OutputHash outputs;
   RecordingReader reader(recording);
   ReplaySource source(reader, [&outputs](const v1::Output& output) { outputs.Add(output); });
-  Daemon daemon(reader.config(), source, source, {.claim = reader.claim()});
+  DaemonParts parts;
+  parts.claim = reader.claim();
+  Daemon daemon(reader.config(), source, source, std::move(parts));
   while (daemon.Step()) {
   }
   if (!reader.error().empty()) throw std::runtime_error(reader.error());
