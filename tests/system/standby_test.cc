@@ -87,7 +87,7 @@ TEST_F(StandbyTest, OneThatStoodStillItselfLeavesTheWorldToTheOther) {
 TEST_F(StandbyTest, TakesOverFromAnOlderVersionThatIsEnded) {
   ASSERT_NO_FATAL_FAILURE(Start("collisiond-next"));
   ASSERT_NO_FATAL_FAILURE(AwaitEvent("confirmed"));
-  EXPECT_TRUE(Contains(world_.Monitor({"status", "--json"}).out, "\"version\":\"next\""))
+  EXPECT_TRUE(world_.MonitorComesToSay({"status", "--json"}, "\"version\":\"next\""))
       << "the standby tells its version";
   first_->Signal(SIGTERM);
   ExpectTakeOver();
