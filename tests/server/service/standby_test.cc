@@ -168,6 +168,19 @@ TEST_F(StandbyOfDaemonTest, IsReadyAnewInEachEpoch) {
   EXPECT_EQ(standby(), "ready");
 }
 
+// Goal:   a status that waited while this process stood still says nothing of what was missed.
+TEST_F(StandbyOfDaemonTest, AfterAStandstillItIsReadyByLaterStatusesOnly) {
+  const auto standby = [this] { return Extension(daemon_.status(), "standby"); };
+  HearOther({});
+  EXPECT_EQ(standby(), "ready");
+  daemon_.bus().Pass(5 * kSecond);
+  HearOther({});
+  EXPECT_EQ(standby(), "not ready yet");
+  daemon_.Step({}, 1);
+  HearOther({});
+  EXPECT_EQ(standby(), "ready");
+}
+
 // What a standby says whose own cable was out would be wrong.
 TEST_F(StandbyOfDaemonTest, IsSilentButForItsStatusUntilASimulatorFollowsIt) {
   const Voyage run;
