@@ -213,10 +213,12 @@ void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
     if (std::exchange(agent->room_refused, true)) return;
     return rejections_.Add(NoRoom(
         simulator->IdOf(slot, agent->generation()),
-        fmt::format("no room for another agent: this simulator has {} of the world's {}; allowed: "
-                    "at most {} and {}, less what is guaranteed to other simulators",
-                    world_.quotas().Used(simulator->id(), Resource::kAgents), detector_.agents(),
-                    world_.quotas().ShareOf(simulator->id(), Resource::kAgents).max, agents_max_)));
+        fmt::format("no room for another agent: this simulator has {}, allowed are {}; all "
+                    "simulators have {}, allowed are {} (agents_max), less what is guaranteed to "
+                    "others",
+                    world_.quotas().Used(simulator->id(), Resource::kAgents),
+                    world_.quotas().ShareOf(simulator->id(), Resource::kAgents).max,
+                    detector_.agents(), agents_max_)));
   }
   Admit(simulator, slot, agents.TakeWaiting(slot).back());
 }

@@ -43,7 +43,8 @@ Publisher::Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* b
       demand_(config),
       bus_(*bus),
       filter_(config),
-      earliest_period_ns_(ToNanoseconds(config.earliest_period_s())) {}
+      earliest_period_ns_(ToNanoseconds(config.earliest_period_s())),
+      rises_wait_ns_(2 * ToNanoseconds(config.temporal_resolution_s())) {}
 
 v1::ServiceStamp Publisher::NextStamp() {
   v1::ServiceStamp stamp;
@@ -55,11 +56,13 @@ v1::ServiceStamp Publisher::NextStamp() {
 }
 
 void Publisher::PublishClearances(World* world) {
+  const std::int64_t wait_ns = world->simulated() ? 0 : rises_wait_ns_;
   for (auto& [id, simulator] : world->simulators()) {
     // Before time begins only who asked for it is told.
     if (world->simulated() && !simulator.time().granted()) continue;
     // Chunk 0 last: a simulator that waits for the grant in it then has all the others.
-    const std::set<std::uint32_t> chunks = simulator.agents().clearances().TakeChanged();
+    const std::set<std::uint32_t> chunks =
+        simulator.agents().clearances().TakeChanged(world->monotonic_ns(), wait_ns);
     for (auto chunk = chunks.rbegin(); chunk != chunks.rend(); ++chunk) {
       PublishChunk(*world, &simulator, *chunk);
     }

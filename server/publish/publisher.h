@@ -33,7 +33,9 @@ class Publisher {
 
   /// Publishes the chunks that are marked as changed, each complete, and takes the marks. Chunk 0,
   /// which carries the grant, comes last: a simulator that waits for its grant in it then has the
-  /// others. A simulator that has been granted nothing yet keeps its marks.
+  /// others. A simulator that has been granted nothing yet keeps its marks. With a wall clock
+  /// those that only rise wait for others of their chunk, for two times `temporal_resolution_s` at
+  /// most: meanwhile a simulator has usually told new states, whose acknowledgement they go with.
   void PublishClearances(World* world);
 
   /// Publishes what is new to readers (EventFilter). Contacts are numbered from 1, and leave before
@@ -103,6 +105,7 @@ class Publisher {
   std::uint32_t earliest_readers_ = 0;
   std::optional<v1::EarliestIntersection> earliest_;
   std::int64_t earliest_now_ns_ = 0, earliest_monotonic_ns_ = 0;  ///< Of `earliest_`.
+  const std::int64_t rises_wait_ns_;
 };
 
 }  // namespace collision::server

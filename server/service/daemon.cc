@@ -339,11 +339,11 @@ class Daemon::Implementation {
     });
     if (shares_.Take(detector_.owner_work(), world_)) schedule_.Hasten();
     shares_.Write(world_.monotonic_ns());
+    publisher_.PublishEvents(detector_.events(), world_);
     for (const detection::AgentClearance& clearance : detector_.TakeChangedClearances()) {
       world_.SetClearance(clearance);
     }
     world_.UpdateGrants();
-    publisher_.PublishEvents(detector_.events(), world_);
   }
 
   /// Publishes what does not come from the detector alone. Events have left before the clearances,

@@ -5,12 +5,28 @@
 #include "collision_core/base/check.h"
 
 namespace collision::server {
+namespace {
+
+/// Whether who still goes by `before` knows less than now, and nothing wrong.
+bool OnlyRises(const detection::AgentClearance& before, const detection::AgentClearance& now) {
+  return now.cause == detection::ClearanceCause::kNone && now.clear_until >= before.clear_until &&
+         now.unannounced_until >= before.unannounced_until && now.not_clear <= before.not_clear &&
+         now.in_contact == before.in_contact && now.saturated == before.saturated &&
+         now.effective_from == before.effective_from;
+}
+
+}  // namespace
 
 void Clearances::Set(std::uint32_t slot, const detection::AgentClearance& clearance) {
-  clearances_.insert_or_assign(slot, clearance);
+  const auto [known, is_new] = clearances_.try_emplace(slot, clearance);
+  if (!is_new && OnlyRises(known->second, clearance)) {
+    risen_.try_emplace(slot / kSlotsPerChunk);
+  } else {
+    MarkChanged(slot);
+  }
+  known->second = clearance;
   ends_.Set(SlotIndex(slot), EndOf(clearance));
   lowerings_.Take(slot, clearance);
-  MarkChanged(slot);
 }
 
 void Clearances::Forget(std::uint32_t slot) {
@@ -50,6 +66,13 @@ void Clearances::Validate() const {
   }
 }
 
-std::set<std::uint32_t> Clearances::TakeChanged() { return std::exchange(changed_, {}); }
+std::set<std::uint32_t> Clearances::TakeChanged(std::int64_t now_ns, std::int64_t wait_ns) {
+  for (auto& [chunk, since_ns] : risen_) {
+    if (!since_ns) since_ns = now_ns;
+    if (now_ns - *since_ns >= wait_ns) changed_.insert(chunk);
+  }
+  for (const std::uint32_t chunk : changed_) risen_.erase(chunk);
+  return std::exchange(changed_, {});
+}
 
 }  // namespace collision::server

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "collision_core/base/event_queue.h"
@@ -22,6 +23,8 @@ inline constexpr std::int64_t kRepeatAfterNs = 1'000'000'000;
 /// The clearances of one simulator as the detector last gave them, and the chunks whose samples are
 /// out of date.
 ///
+/// Where a clearance only rises its sample may wait: readers then know less, and nothing wrong.
+///
 /// A sample is a function of the clearances here, of the agents' acknowledged states and revisions
 /// (AgentTable) and of the grant (SimulatorTime). Each change of one of them marks its chunk, and
 /// the publisher takes the marks: it publishes a chunk whole, so that a lost sample costs nothing
@@ -37,7 +40,8 @@ class Clearances {
   /// All samples are out of date.
   void MarkAllChanged();
 
-  /// Replaces the clearance of the agent in `slot`, and marks its chunk.
+  /// Replaces the clearance of the agent in `slot`, and marks its chunk, which may wait if the
+  /// clearance only rises.
   void Set(std::uint32_t slot, const detection::AgentClearance& clearance);
 
   /// The agent in `slot` is gone, with its clearance; marks its chunk.
@@ -68,8 +72,9 @@ class Clearances {
   /// Walks everything: each clearance has its place in the queue.
   void Validate() const;
 
-  /// The chunks marked since the last call, in ascending order; none is marked afterwards.
-  [[nodiscard]] std::set<std::uint32_t> TakeChanged();
+  /// The chunks that are marked, in ascending order; of those that may wait the ones that have
+  /// waited for `wait_ns` of monotonic time, counted from the first call after they were marked.
+  [[nodiscard]] std::set<std::uint32_t> TakeChanged(std::int64_t now_ns, std::int64_t wait_ns);
 
  private:
   using SlotIndex = Index<struct SlotTag>;
@@ -81,6 +86,8 @@ class Clearances {
   std::map<std::uint32_t, detection::AgentClearance> clearances_;
   EventQueue<SlotIndex> ends_;  // EndOf() of each clearance
   std::set<std::uint32_t> changed_;
+  /// Chunks that may wait, and since when; nullopt: since the last call of TakeChanged().
+  std::map<std::uint32_t, std::optional<std::int64_t>> risen_;
   Lowerings lowerings_;
   std::int64_t waiting_since_ns_ = 0;  ///< While samples are not acknowledged.
 };

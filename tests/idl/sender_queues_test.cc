@@ -66,6 +66,20 @@ TEST(SenderQueues, AtOnceIsAPartOfWhatWaits) {
   EXPECT_EQ(std::count(next.begin(), next.end(), kSamples), 1) << "it waits for one part only";
 }
 
+TEST(SenderQueues, ALargeSampleLeavesTheStepToASmallOneAndComesFirstInTheNext) {
+  Queues queues({});
+  queues.Put(Of(2, 0, 2 * kAtOnceMin), 20, 0);
+  queues.Put(Of(2, 1, 2 * kAtOnceMin), 21, 0);
+  EXPECT_EQ(Taken(&queues, kNoLimit, 0, kAtOnceMin), std::vector<int>{20}) << "one in any case";
+  queues.Put(Of(1, 0), 10, 0);
+  queues.Put(Of(3, 0), 30, 0);
+  EXPECT_EQ(Taken(&queues, kNoLimit, 0, kAtOnceMin), (std::vector<int>{30, 10}));
+  queues.Put(Of(1, 0), 11, 0);
+  queues.Put(Of(3, 0), 31, 0);
+  EXPECT_EQ(Taken(&queues, kNoLimit, 0, kAtOnceMin), std::vector<int>{21});
+  EXPECT_EQ(Taken(&queues, kNoLimit, 0, kAtOnceMin), (std::vector<int>{31, 11}));
+}
+
 TEST(SenderQueues, AFloodTakesNoMoreThanItsShareOfABatch) {
   constexpr int kFlood = 20'000;
   Queues queues({});
@@ -86,8 +100,7 @@ TEST(SenderQueues, ABatchIsBoundedInBytes) {
                0);
   }
   const std::vector<int> batch = Taken(&queues, kNoLimit, 0, kBatch);
-  EXPECT_LE(batch.size() * (kLarge + kSampleOverhead), kBatch + kLarge + kSampleOverhead);
-  EXPECT_GE(batch.size() * (kLarge + kSampleOverhead), kBatch);
+  EXPECT_EQ(batch.size(), kBatch / (kLarge + kSampleOverhead));
   EXPECT_EQ(Taken(&queues).size(), 100 - batch.size());
 }
 

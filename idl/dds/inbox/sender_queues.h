@@ -74,7 +74,8 @@ class SenderQueues {
     return first || Ready(queue) ? Outcome::kWaits : Outcome::kOverRate;
   }
 
-  /// Appends at most `samples` items, as many as have `bytes` together, the last one rounded up.
+  /// Appends at most `samples` items, as many as have `bytes` together, but one in any case if
+  /// `items` is empty. What is too large for the rest of them comes first the next time.
   void Take(std::size_t samples, std::size_t bytes, std::int64_t now_ns, std::vector<Item>* items) {
     Budget budget{samples, bytes};
     for (auto& [sender, queue] : queues_) Refill(&queue, now_ns);
@@ -85,7 +86,7 @@ class SenderQueues {
       for (std::size_t i = 0; i < queues_.size() && budget.left(); ++i, ++next) {
         if (next == queues_.end()) next = queues_.begin();
         if (!Ready(next->second)) continue;
-        Serve(&next->second, &budget, items);
+        if (!Serve(&next->second, &budget, items)) continue;
         last_served_ = next->first;
         served = true;
       }
@@ -204,10 +205,16 @@ class SenderQueues {
     return !queue.order.empty() && queue.samples_left > 0 && queue.bytes_left > 0;
   }
 
-  void Serve(Queue* queue, Budget* budget, std::vector<Item>* items) {
-    for (std::size_t turn = 0; turn < kTurnBytes && Ready(*queue) && budget->left();) {
+  /// False: not even its first sample is within the budget.
+  bool Serve(Queue* queue, Budget* budget, std::vector<Item>* items) {
+    std::size_t turn = 0;
+    while (turn < kTurnBytes && Ready(*queue) && budget->left()) {
       const auto first = queue->order.begin();
       const std::size_t cost = first->bytes + kSampleOverhead;
+      if (cost > budget->bytes && !items->empty()) {
+        budget->bytes = 0;
+        break;
+      }
       turn += cost;
       budget->bytes -= std::min(budget->bytes, cost);
       --budget->samples;
@@ -217,6 +224,7 @@ class SenderQueues {
       Erase(first, queue);
     }
     if (queue->order.empty()) queue->refused = 0;
+    return turn > 0;
   }
 
   void Replace(const SampleFacts& facts, Queue* queue) {

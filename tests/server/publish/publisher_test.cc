@@ -37,7 +37,7 @@ std::vector<std::uint32_t> Chunks(const ScriptedBus& bus) {
 
 /// A world whose time has begun, with one simulator in lock-step.
 struct OneSimulator {
-  OneSimulator() : world(Config()) {
+  explicit OneSimulator(const v1::Config& config = Config()) : world(config) {
     const std::string name = "a";
     simulator = world.ClaimFor(1, 10, 1, &name).simulator;
     simulator->time().Offer({.clock = At(0)});
@@ -168,7 +168,7 @@ TEST(Publisher, TheEventLogCountsEventsWithoutTheirStamps) {
 
 TEST(Publisher, TheChunkOfTheGrantLeavesLastAndEachOnce) {
   OneSimulator one;
-  (void)one.simulator->agents().clearances().TakeChanged();
+  (void)one.simulator->agents().clearances().TakeChanged(0, 0);
   one.simulator->time().Grant(At(kSecond));
   for (const std::uint32_t slot : {0u, 64u, 200u}) {
     one.simulator->agents().clearances().MarkChanged(slot);
@@ -181,6 +181,32 @@ TEST(Publisher, TheChunkOfTheGrantLeavesLastAndEachOnce) {
   EXPECT_EQ(bus.outputs.back().clearance().granted_until_ns(), kSecond);
   publisher.PublishClearances(&one.world);
   EXPECT_EQ(bus.outputs.size(), 3u);
+}
+
+TEST(Publisher, AClearanceThatRisesWaitsByTheWallClockOnly) {
+  for (const bool wall : {false, true}) {
+    v1::Config config;
+    if (wall) config.mutable_clock()->set_kind(v1::Clock::WALL);
+    config = CompleteConfig(config);
+    OneSimulator one(config);
+    one.simulator->time().Grant(At(kSecond));
+    AgentTable& agents = one.simulator->agents();
+    agents.Add(0, {1, 1, detection::AgentDeclaration{}});
+    agents.Admit(0, At(0), 1);
+    const detection::AgentId id = one.simulator->IdOf(0, 1);
+    agents.SetClearance({.agent = id, .clear_until = At(1)});
+    ScriptedBus bus;
+    const ServiceClaim claim = Claimed();
+    Publisher publisher(config, &claim, &bus);
+    publisher.PublishClearances(&one.world);
+    EXPECT_EQ(Chunks(bus).size(), 1u);
+    agents.SetClearance({.agent = id, .clear_until = At(2)});
+    publisher.PublishClearances(&one.world);
+    EXPECT_EQ(Chunks(bus).size(), wall ? 1u : 2u);
+    one.world.SetReading({kSecond, kSecond});
+    publisher.PublishClearances(&one.world);
+    EXPECT_EQ(Chunks(bus).size(), 2u);
+  }
 }
 
 TEST(Publisher, ASimulatorWithoutAGrantKeepsItsMarks) {

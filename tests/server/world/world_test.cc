@@ -86,7 +86,7 @@ TEST(World, ALowerRunIsOldAndAHigherOneStartsAnew) {
   EXPECT_EQ(higher.simulator->agents().Waiting(70), nullptr);
   EXPECT_EQ(higher.simulator->run(), 6u);
   EXPECT_EQ(higher.simulator->name(), "a");
-  EXPECT_TRUE(higher.simulator->agents().clearances().TakeChanged().contains(1));
+  EXPECT_TRUE(higher.simulator->agents().clearances().TakeChanged(0, 0).contains(1));
 }
 
 // Goal:   states alone prove nothing: they make no simulator and take over none, but are not
@@ -189,19 +189,19 @@ TEST(World, GrantsWhatIsClear) {
   a.agents().Admit(0, At(0), 1);
   const auto clear_until = [&world, &a](Instant instant) {
     world.SetClearance({.agent = a.IdOf(0, 1), .clear_until = instant});
-    EXPECT_EQ(a.agents().clearances().TakeChanged(), std::set<std::uint32_t>{0});
+    EXPECT_EQ(a.agents().clearances().TakeChanged(0, 0), std::set<std::uint32_t>{0});
   };
   clear_until(At(4 * kSecond));
   world.MoveOn();
   world.UpdateGrants();
   EXPECT_EQ(a.time().granted(), At(4 * kSecond));
-  EXPECT_TRUE(a.agents().clearances().TakeChanged().contains(0));
+  EXPECT_TRUE(a.agents().clearances().TakeChanged(0, 0).contains(0));
   EXPECT_EQ(world.EffectiveFrom(At(1)), At(4 * kSecond));
 
   clear_until(At(0));
   world.UpdateGrants();
   EXPECT_EQ(a.time().granted(), At(4 * kSecond));
-  EXPECT_TRUE(a.agents().clearances().TakeChanged().empty())
+  EXPECT_TRUE(a.agents().clearances().TakeChanged(0, 0).empty())
       << "a grant that stays is not told again";
 
   a.time().Offer({.clock = At(4 * kSecond)});
