@@ -42,7 +42,7 @@ void AddSimulators(const World& world, v1::ServiceStatus* status) {
     wire.set_alive(simulator.alive());
     wire.set_clock_ns(simulator.time().clock().value_or(Instant::Always()).nanoseconds());
     wire.set_granted_until_ns(simulator.time().granted().value_or(Instant::Always()).nanoseconds());
-    wire.set_agents(static_cast<std::uint32_t>(simulator.agents().size()));
+    wire.set_agents(static_cast<std::uint32_t>(world.quotas().Used(id, Resource::kAgents)));
     wire.set_states(simulator.states());
     wire.set_rejected(simulator.refused());
     const OffsetBracket offset = simulator.sender_clock().offset(world.monotonic_ns());

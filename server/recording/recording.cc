@@ -216,7 +216,9 @@ bool RecordingReader::ReadEntry(v1::RecordingEntry* entry) {
   std::string bytes(length, '\0');
   if (!file_.read(bytes.data(), static_cast<std::streamsize>(length))) return Fail("cut off");
   const google::protobuf::LogSilencer silent;  // the error below reports it
-  if (!entry->ParseFromString(bytes)) return Fail("damaged: not a recording entry");
+  if (!entry->ParseFromString(bytes)) {
+    return Fail(offset_ == 0 ? "not a recording" : "damaged: not a recording entry");
+  }
   offset_ = static_cast<std::uint64_t>(file_.tellg());
   return true;
 }

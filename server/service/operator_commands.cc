@@ -51,7 +51,7 @@ std::string OperatorCommands::Evict(const std::string& name) {
   const bool was_missing = world_.silence().roster().GiveUp(name);
   Simulator* simulator = world_.Find(SimulatorId(name));
   if (simulator != nullptr && !simulator->has_left()) {
-    const std::size_t agents = simulator->agents().size();
+    const std::uint64_t agents = world_.quotas().Used(simulator->id(), Resource::kAgents);
     intake_.EndRun(simulator, EndCause::kEvicted);
     return fmt::format(
         "done: simulator \"{}\" is removed with its {} agents; it is welcome again with a higher "

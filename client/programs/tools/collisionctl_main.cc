@@ -207,6 +207,11 @@ int Main(int argc, char** argv) {
   const CLI::App* sphere_tree = AddSphereTreeCommand(&app, &tree);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::RequiredError& error) {
+    const std::vector<std::string> words = app.remaining();
+    if (words.empty() || !app.get_subcommands().empty()) return app.exit(error), kExitUsage;
+    std::cerr << "collisionctl: \"" << words.front() << "\": no such command; see --help\n";
+    return kExitUsage;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kExitOk : kExitUsage;
   }

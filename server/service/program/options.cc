@@ -84,8 +84,8 @@ void Define(CLI::App* app, Options* options) {
                                  "up to FILE.3");
   auto* replay =
       app->add_option("--replay", options->replay_file,
-                      "Repeat a recorded run without DDS, with its own configuration; prints each "
-                      "event that it published as a line of JSON");
+                      "Repeat the run that --record wrote to FILE, without DDS, with its own "
+                      "configuration; prints each event that it published as a line of JSON");
   for (auto* file : {config, record, replay}) file->type_name("FILE")->check(NotEmpty());
   check->needs(config)->excludes(print);
   for (auto* other : {config, check, print, domain, record}) replay->excludes(other);

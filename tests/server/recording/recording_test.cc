@@ -164,7 +164,8 @@ TEST_F(RecordingTest, RefusesASecondHeader) {
 
 // Goal:   files that are something else are refused by one line that says so.
 TEST_F(RecordingTest, RefusesOtherFiles) {
-  EXPECT_NE(RefusalOf("world: \"default\"\n"), "");
+  EXPECT_EQ(RefusalOf("# Shared by all programs of the world.\nworld: \"default\"\n"),
+            path_ + ": byte 0: not a recording");
   EXPECT_EQ(RefusalOf(std::string(1, '\0')), path_ + ": byte 0: not a recording: it has no header");
   EXPECT_EQ(RefusalOf(std::string("\x04\x0a\x02\x08\x03", 5)),
             path_ + ": byte 0: format 3; this program reads formats 1 to 2");

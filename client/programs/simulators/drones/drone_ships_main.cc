@@ -24,6 +24,7 @@ void AddFlightOptions(CLI::App* app, DroneShipOptions* options) {
   app->add_option("--box", options->limits.box_m,
                   "Size of the space [m]: x y z, the same for all processes of a swarm; default: "
                   "8000 m3 for each drone up to the last")
+      ->delimiter(',')
       ->check(Finite(kCoordinateMax, false));
   app->add_option("--radius", options->limits.radius_m, "Radius of a drone without a shape [m]")
       ->check(Finite(kRadiusMax, false))

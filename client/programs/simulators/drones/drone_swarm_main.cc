@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   app.add_option("--seed", swarm.seed, "Seed, the same for all processes of a swarm")
       ->capture_default_str();
   app.add_option("--box", swarm.limits.box_m, "Size of the space [m]: x y z")
+      ->delimiter(',')
       ->check(Finite(kCoordinateMax, false))
       ->capture_default_str();
   app.add_option("--radius", swarm.limits.radius_m, "Radius of a drone [m]")

@@ -17,6 +17,7 @@ namespace {
 void AddFlightOptions(CLI::App* app, SpaceshipOptions* options, bool* autopilot) {
   app->add_flag("--autopilot", *autopilot, "A script flies, as it does without a terminal");
   app->add_option("--box", options->box_m, "Space that the script patrols [m]: x y z, from 0")
+      ->delimiter(',')
       ->check(Finite(kCoordinateMax, false))
       ->capture_default_str();
   app->add_option("--seed", options->seed, "Seed of the script's patrol")->capture_default_str();
