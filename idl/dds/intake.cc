@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kLoan = 256;  // samples at a time: bounds the loan, nothing else
 
-/// Bytes taken from the inbox at once, or a sample more. As a message a sample is at most half as
-/// large again, so that a recorded batch stays below its limit of 64 MiB.
+/// Bytes taken from the inbox at once, unless one sample has more. As a message a sample is at most
+/// half as large again, so that a recorded batch stays below its limit of 64 MiB.
 constexpr std::size_t kInboxBytesAtOnce = std::size_t{16} << 20;
 
 /// Samples borrowed from a reader, given back at the end.
@@ -137,7 +137,12 @@ std::size_t Intake::Take(dds_entity_t reader, const TopicRow& row, std::size_t l
     if (loan.size() == 0) break;
     taken += loan.size();
     for (std::size_t i = 0; i < loan.size(); ++i) {
-      if (!loan.info(i).valid_data) continue;
+      if (!loan.info(i).valid_data) {
+        if (services_.contains(loan.info(i).publication_handle)) {
+          EndService(loan.info(i).publication_handle, inputs);
+        }
+        continue;
+      }
       if (outputs == nullptr) {
         FromWire(row.id, loan.sample(i), &inputs->emplace_back());
       } else if (Wanted(row, loan.sample(i))) {

@@ -95,12 +95,14 @@ class DdsSession::Implementation {
     waker_.emplace(guard_);
   }
 
-  /// The status first: by its end others know that a service has ended. Where a program was killed
-  /// lately, each writer takes a second to end.
+  /// A service says that it ends: where a program was killed lately, or stands still, each writer
+  /// takes a second to end.
   ~Implementation() {
-    const dds_entity_t status =
-        endpoints_.writers[static_cast<std::size_t>(dds::TopicId::kServiceStatus)];
-    if (status > 0) dds_delete(status);
+    if (service_id_ == 0) return;
+    collision_v1_ServiceStatus key{};
+    key.service_id = service_id_;
+    dds_dispose(Writer(dds::TopicId::kServiceStatus), &key);
+    Flush();
   }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
@@ -109,6 +111,11 @@ class DdsSession::Implementation {
   void Write(const Message& message, dds::TopicId topic = dds::Carrier<Message>::kTopic) {
     const dds_entity_t writer = Writer(topic);
     if (dds_write(writer, dds::ToWire(message).get()) != DDS_RETCODE_OK) ++writes_failed_;
+  }
+
+  void WriteStatus(const v1::ServiceStatus& message) {
+    service_id_ = message.service_id();
+    Write(message);
   }
 
   /// Writes and disposes at once, so that the removal has a sequence of its own.
@@ -259,6 +266,7 @@ class DdsSession::Implementation {
   const dds::Endpoints endpoints_;
   const dds_entity_t waitset_;
   dds::Intake intake_;
+  std::uint64_t service_id_ = 0;  ///< Of the statuses that were written; 0: none.
   std::uint64_t writes_failed_ = 0;
   std::uint64_t senders_ignored_ = 0;
   std::optional<dds::Waker> waker_;
@@ -281,7 +289,7 @@ void DdsSession::Write(const v1::CollisionEvent& message) {
   implementation_->Write(message, contact ? dds::TopicId::kContact : dds::TopicId::kForecast);
 }
 void DdsSession::Write(const v1::Rejection& message) { implementation_->Write(message); }
-void DdsSession::Write(const v1::ServiceStatus& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::ServiceStatus& message) { implementation_->WriteStatus(message); }
 void DdsSession::Write(const v1::SimulatorReport& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::OperatorCommand& message) { implementation_->Write(message); }
 

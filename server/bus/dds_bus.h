@@ -31,8 +31,8 @@ class DdsBus final : public Bus {
   DdsBus& operator=(const DdsBus&) = delete;
 
   /// `limit` counts samples: a sample that also ends its instance adds a removal as a second
-  /// message, and changes of liveliness come on top. At most 16 MiB of samples or one more, so that
-  /// no batch is too large for a recording. Equal shares of all senders that wait.
+  /// message, and changes of liveliness come on top. At most 16 MiB of samples or one of them,
+  /// so that no batch is too large for a recording. Equal shares of all senders that wait.
   bool Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                std::vector<v1::Input>* inputs) override;
 

@@ -53,7 +53,7 @@ void ServiceClaim::HearClock(std::uint64_t service, std::uint32_t term) {
 }
 
 bool ServiceClaim::BeginsToSpeak() {
-  if (!is_unheard_ || !is_named_) return false;
+  if (phase_ != ClaimPhase::kServing || !is_unheard_ || !is_named_) return false;
   is_unheard_ = false;
   return true;
 }
@@ -85,8 +85,8 @@ bool ServiceClaim::HasStandby() const {
 }
 
 std::optional<std::int64_t> ServiceClaim::standstill_ns() const {
-  const bool is_replaceable =
-      phase_ == ClaimPhase::kServing && (options_.stands_by || HasStandby());
+  const bool serves = phase_ == ClaimPhase::kServing || phase_ == ClaimPhase::kWaking;
+  const bool is_replaceable = serves && (options_.stands_by || HasStandby());
   if (!is_replaceable && phase_ != ClaimPhase::kStandby) return std::nullopt;
   return options_.waking_ns / 2;
 }
@@ -94,19 +94,28 @@ std::optional<std::int64_t> ServiceClaim::standstill_ns() const {
 void ServiceClaim::WakeUp(std::int64_t gap_ns, std::int64_t now_ns) {
   const std::optional<std::int64_t> standstill = standstill_ns();
   if (!standstill || gap_ns <= *standstill) return;
-  woke_ns_ = now_ns;
-  if (phase_ == ClaimPhase::kServing) {
-    phase_ = ClaimPhase::kWaking;
-    since_ns_ = now_ns;
-  } else if (gap_ns > kStaleAfterNs) {
+  if (phase_ == ClaimPhase::kStandby && gap_ns > kStaleAfterNs) {
     phase_ = ClaimPhase::kYielded;
     why_ = fmt::format("stood still for {:.1f} s while it stood by", 1e-9 * double(gap_ns));
+    return;
   }
+  const bool again = gap_ns < options_.heard_for_ns && stood_ns_ &&
+                     now_ns - gap_ns - *stood_ns_ < options_.waking_ns;
+  if (!again) listens_since_ns_ = now_ns;
+  stood_ns_ = now_ns;
+  if (now_ns - listens_since_ns_ >= options_.heard_for_ns) return;
+  woke_ns_ = now_ns;
+  if (phase_ == ClaimPhase::kStandby) return;
+  phase_ = ClaimPhase::kWaking;
+  since_ns_ = now_ns;
 }
+
+/// Longer than a service that serves listens: where both stood still that one goes on.
+std::int64_t ServiceClaim::StandbyListens() const { return options_.waking_ns * 3 / 2; }
 
 /// What the network said on waking, it said of the time in which this process heard nothing.
 bool ServiceClaim::HasJustWoken(std::int64_t now_ns) const {
-  return woke_ns_ && now_ns - *woke_ns_ < options_.waking_ns;
+  return woke_ns_ && now_ns - *woke_ns_ < StandbyListens();
 }
 
 /// Leaves the world to another service, if there is one that goes first.
@@ -132,6 +141,7 @@ bool ServiceClaim::Yields(std::int64_t now_ns) {
 
 /// Of two that stand by, whether the other one is to take over.
 bool ServiceClaim::WaitsFor(const Other& other) const {
+  if (other.newest.phase != OtherPhase::kStandby) return false;
   return std::pair(other.newest.term, other.newest.instance) <
          std::pair(standby_term_, options_.instance);
 }
@@ -192,7 +202,7 @@ std::optional<std::int64_t> ServiceClaim::NextDue() const {
   if (phase_ == ClaimPhase::kClaiming) return *since_ns_ + options_.wait_ns;
   if (phase_ == ClaimPhase::kWaking) return *since_ns_ + options_.waking_ns;
   if (phase_ == ClaimPhase::kStandby && vacant_ns_) {
-    return woke_ns_ ? *woke_ns_ + options_.waking_ns : *vacant_ns_ + options_.heard_for_ns;
+    return woke_ns_ ? *woke_ns_ + StandbyListens() : *vacant_ns_ + options_.heard_for_ns;
   }
   return std::nullopt;
 }

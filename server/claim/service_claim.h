@@ -77,7 +77,9 @@ class ServiceClaim {
   /// heard again, with the status that it wrote last.
   void HearEnd(std::uint64_t instance) { others_.erase(instance); }
 
-  /// This process has stood still for so long. Shorter than standstill_ns() changes nothing.
+  /// This process has stood still for so long, or a step has taken it. Shorter than
+  /// standstill_ns() changes nothing. Nor does any other once it has gone on so, step by step, for
+  /// heard_for_ns: who is only slow would listen for ever.
   void WakeUp(std::int64_t gap_ns, std::int64_t now_ns);
 
   /// The standstill after which a standby may have taken over: half a lease; nullopt: none stands
@@ -143,6 +145,7 @@ class ServiceClaim {
 
   bool GoesFirst(const HeardService& other) const;
   bool Yields(std::int64_t now_ns);
+  std::int64_t StandbyListens() const;
   bool HasJustWoken(std::int64_t now_ns) const;
   bool TakesOver(std::int64_t now_ns);
   bool WaitsFor(const Other& other) const;
@@ -154,6 +157,8 @@ class ServiceClaim {
   std::optional<std::int64_t> since_ns_;      ///< Of the claim, or of the waking.
   std::optional<std::int64_t> contended_ns_;  ///< Serving: when it last was, though that one ended.
   std::optional<std::int64_t> woke_ns_;
+  std::optional<std::int64_t> stood_ns_;  ///< Until when it stood still, or a step took long.
+  std::int64_t listens_since_ns_ = 0;     ///< Since then it has gone on so.
   bool followed_ = false;
   bool is_unheard_ = false;                ///< It has taken over, and does not speak yet.
   bool is_named_ = false;                  ///< Since then: by a simulator.

@@ -213,12 +213,12 @@ void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
     if (std::exchange(agent->room_refused, true)) return;
     return rejections_.Add(NoRoom(
         simulator->IdOf(slot, agent->generation()),
-        fmt::format("no room for another agent: this simulator has {}, allowed are {}; all "
-                    "simulators have {}, allowed are {} (agents_max), less what is guaranteed to "
-                    "others",
+        fmt::format("no room for another agent; allowed to this simulator now: the {} that it has "
+                    "(at most {}; of the {} of all simulators {} are used, and what others are "
+                    "guaranteed is kept)",
                     world_.quotas().Used(simulator->id(), Resource::kAgents),
-                    world_.quotas().ShareOf(simulator->id(), Resource::kAgents).max,
-                    detector_.agents(), agents_max_)));
+                    world_.quotas().ShareOf(simulator->id(), Resource::kAgents).max, agents_max_,
+                    detector_.agents())));
   }
   Admit(simulator, slot, agents.TakeWaiting(slot).back());
 }

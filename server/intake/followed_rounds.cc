@@ -7,7 +7,7 @@ namespace collision::server {
 namespace {
 
 /// The latest time of which a message tells; Always(): of none.
-Instant TimeOf(const v1::Input& input) {
+Instant ToldBy(const v1::Input& input) {
   if (input.has_simulator_clock()) {
     return Instant::FromNanoseconds(input.simulator_clock().clock_ns());
   }
@@ -18,9 +18,20 @@ Instant TimeOf(const v1::Input& input) {
   return latest;
 }
 
+/// Of a message that may be kept; 0: it may not.
 std::uint64_t SimulatorOf(const v1::Input& input) {
-  return input.has_simulator_clock() ? input.simulator_clock().simulator_id()
-                                     : input.agent_states().simulator_id();
+  switch (input.message_case()) {
+    case v1::Input::kAgentStates:
+      return input.agent_states().simulator_id();
+    case v1::Input::kSimulatorClock:
+      return input.simulator_clock().simulator_id();
+    case v1::Input::kAgentDescription:
+      return input.agent_description().simulator_id();
+    case v1::Input::kAgentRemoval:
+      return input.agent_removal().simulator_id();
+    default:
+      return 0;
+  }
 }
 
 }  // namespace
@@ -36,10 +47,17 @@ Instant FollowedRounds::RoundEnd() const {
   return follows_ && in_rounds ? world_.granted() : Instant::Never();
 }
 
+/// A description or a removal is of the time of the last message that was kept before it.
+Instant FollowedRounds::TimeOf(const v1::Input& input) const {
+  if (!input.has_agent_description() && !input.has_agent_removal()) return ToldBy(input);
+  const auto kept = kept_.find(SimulatorOf(input));
+  return kept == kept_.end() ? Instant::Always() : kept->second.inputs.back().time;
+}
+
 void FollowedRounds::Apply(const v1::Input& input) {
   const Instant time = TimeOf(input);
   Simulator* const simulator = time > RoundEnd() ? FindFollower(input) : nullptr;
-  if (simulator == nullptr || !Keep(simulator->id(), input)) return intake_.Apply(input);
+  if (simulator == nullptr || !Keep(simulator->id(), time, input)) return intake_.Apply(input);
   if (!input.has_simulator_clock()) return;
   const v1::SimulatorClock& clock = input.simulator_clock();
   const bool tells_next = clock.next_ns() > clock.clock_ns();
@@ -58,7 +76,7 @@ Simulator* FollowedRounds::FindFollower(const v1::Input& input) {
   return follows ? simulator : nullptr;
 }
 
-bool FollowedRounds::Keep(std::uint64_t simulator, const v1::Input& input) {
+bool FollowedRounds::Keep(std::uint64_t simulator, Instant time, const v1::Input& input) {
   const std::size_t bytes = input.ByteSizeLong();
   if (count_ >= kKeptMax || bytes_ + bytes > kKeptBytesMax) return false;
   const auto found = kept_.find(simulator);
@@ -67,9 +85,9 @@ bool FollowedRounds::Keep(std::uint64_t simulator, const v1::Input& input) {
     return false;
   }
   Kept& kept = kept_[simulator];
-  kept.inputs.push_back(input);
+  kept.inputs.push_back({time, input});
   kept.bytes += bytes;
-  kept.first = std::min(kept.first, TimeOf(input));
+  kept.first = std::min(kept.first, time);
   ++count_;
   bytes_ += bytes;
   return true;
@@ -90,7 +108,7 @@ void FollowedRounds::TakeRound() {
   const Instant end = RoundEnd();
   for (auto& [id, kept] : kept_) {
     if (kept.first > end) continue;
-    Take(&kept, [end](const v1::Input& input) { return TimeOf(input) <= end; });
+    Take(&kept, [end](const KeptInput& one) { return one.time <= end; });
   }
   std::erase_if(kept_, [](const auto& of_one) { return of_one.second.inputs.empty(); });
 }
@@ -99,13 +117,13 @@ void FollowedRounds::TakeRound() {
 void FollowedRounds::TakeToClock(std::uint64_t simulator) {
   const auto found = kept_.find(simulator);
   if (found == kept_.end()) return;
-  const std::deque<v1::Input>& inputs = found->second.inputs;
-  const auto clock = std::find_if(inputs.begin(), inputs.end(), [](const v1::Input& input) {
-    return input.has_simulator_clock();
+  const std::deque<KeptInput>& inputs = found->second.inputs;
+  const auto clock = std::find_if(inputs.begin(), inputs.end(), [](const KeptInput& one) {
+    return one.input.has_simulator_clock();
   });
   if (clock == inputs.end()) return;
   std::ptrdiff_t left = clock - inputs.begin() + 1;
-  Take(&found->second, [&left](const v1::Input&) { return left-- > 0; });
+  Take(&found->second, [&left](const KeptInput&) { return left-- > 0; });
   if (found->second.inputs.empty()) kept_.erase(found);
 }
 
@@ -115,14 +133,14 @@ void FollowedRounds::Take(Kept* kept, const Predicate& is_taken) {
   count_ -= kept->inputs.size();
   bytes_ -= kept->bytes;
   Kept left;
-  for (v1::Input& input : kept->inputs) {
-    if (is_taken(input)) {
-      intake_.Apply(input);
+  for (KeptInput& one : kept->inputs) {
+    if (is_taken(one)) {
+      intake_.Apply(one.input);
       continue;
     }
-    left.bytes += input.ByteSizeLong();
-    left.first = std::min(left.first, TimeOf(input));
-    left.inputs.push_back(std::move(input));
+    left.bytes += one.input.ByteSizeLong();
+    left.first = std::min(left.first, one.time);
+    left.inputs.push_back(std::move(one));
   }
   *kept = std::move(left);
   count_ += kept->inputs.size();

@@ -15,7 +15,8 @@ namespace collision::server {
 /// Stands before the Intake. A simulator cannot tell of a time that it has not been granted, so a
 /// service that grants time never has states of a later round. One that stands by follows the
 /// grants of another one, and may be behind: it keeps such states and clocks until it gets there,
-/// and so finds what the other one finds. After a take-over it catches up. One thread.
+/// with the descriptions and removals of agents that follow them, and so finds what the other one
+/// finds. After a take-over it catches up. One thread.
 class FollowedRounds {
  public:
   /// Beyond it nothing more is kept: rounds are judged together, which makes brackets wider.
@@ -43,16 +44,21 @@ class FollowedRounds {
   void Clear();
 
  private:
+  struct KeptInput {
+    Instant time;  ///< It is of the round that this is in.
+    v1::Input input;
+  };
   /// Of one simulator, in the order in which they arrived.
   struct Kept {
-    std::deque<v1::Input> inputs;
+    std::deque<KeptInput> inputs;
     std::size_t bytes = 0;
-    Instant first = Instant::Never();  ///< No input tells of an earlier time.
+    Instant first = Instant::Never();  ///< No input is of an earlier time.
   };
 
   Instant RoundEnd() const;
+  Instant TimeOf(const v1::Input& input) const;
   Simulator* FindFollower(const v1::Input& input);
-  bool Keep(std::uint64_t simulator, const v1::Input& input);
+  bool Keep(std::uint64_t simulator, Instant time, const v1::Input& input);
   void TakeRound();
   void TakeToClock(std::uint64_t simulator);
   template <typename Predicate>

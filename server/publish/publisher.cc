@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "collision_core/numeric/seconds.h"
 #include "server/codec/encode.h"
 #include "server/publish/because.h"
 
@@ -44,7 +45,7 @@ Publisher::Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* b
       bus_(*bus),
       filter_(config),
       earliest_period_ns_(ToNanoseconds(config.earliest_period_s())),
-      rises_wait_ns_(2 * ToNanoseconds(config.temporal_resolution_s())) {}
+      resolution_s_(config.temporal_resolution_s()) {}
 
 v1::ServiceStamp Publisher::NextStamp() {
   v1::ServiceStamp stamp;
@@ -56,13 +57,14 @@ v1::ServiceStamp Publisher::NextStamp() {
 }
 
 void Publisher::PublishClearances(World* world) {
-  const std::int64_t wait_ns = world->simulated() ? 0 : rises_wait_ns_;
+  const std::int64_t wait_ns = world->simulated() ? 0 : ToNanoseconds(kRisesWait * resolution_s_);
+  const Instant soon = numeric::AddRoundedUp(world->now(), (kRisesWait + 1) * resolution_s_);
   for (auto& [id, simulator] : world->simulators()) {
     // Before time begins only who asked for it is told.
     if (world->simulated() && !simulator.time().granted()) continue;
     // Chunk 0 last: a simulator that waits for the grant in it then has all the others.
     const std::set<std::uint32_t> chunks =
-        simulator.agents().clearances().TakeChanged(world->monotonic_ns(), wait_ns);
+        simulator.agents().clearances().TakeChanged(world->monotonic_ns(), wait_ns, soon);
     for (auto chunk = chunks.rbegin(); chunk != chunks.rend(); ++chunk) {
       PublishChunk(*world, &simulator, *chunk);
     }
@@ -223,7 +225,7 @@ void Publisher::PublishReports(std::vector<v1::SimulatorReport> reports) {
 }
 
 void Publisher::BeginEpoch(std::uint32_t epoch, const World& world) {
-  if (claim_.phase() == ClaimPhase::kServing && !claim_.speaks()) {
+  if (!claim_.speaks()) {
     for (v1::CollisionEvent& contact : inherited_.TakeTold()) {
       unheard_.emplace_back(epoch_, std::move(contact));
     }
@@ -236,6 +238,10 @@ void Publisher::BeginEpoch(std::uint32_t epoch, const World& world) {
   earliest_.reset();
   filter_.Forget();
   inherited_.BeginEpoch(epoch);
+}
+
+void Publisher::ForgetBefore(std::uint32_t epoch) {
+  std::erase_if(unheard_, [epoch](const auto& contact) { return contact.first < epoch; });
 }
 
 void Publisher::PublishStatus(v1::ServiceStatus status) {

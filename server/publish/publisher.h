@@ -28,14 +28,19 @@ struct EventCounters {
 /// Every sample carries (service, term, sequence); the sequence counts all samples. One thread.
 class Publisher {
  public:
+  /// Temporal resolutions for which a clearance that only rises may wait; the steps of a wall clock
+  /// are one apart at most.
+  static constexpr int kRisesWait = 2;
+
   /// `claim`: who publishes. It and the bus outlive the publisher.
   Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* bus);
 
   /// Publishes the chunks that are marked as changed, each complete, and takes the marks. Chunk 0,
   /// which carries the grant, comes last: a simulator that waits for its grant in it then has the
   /// others. A simulator that has been granted nothing yet keeps its marks. With a wall clock
-  /// those that only rise wait for others of their chunk, for two times `temporal_resolution_s` at
-  /// most: meanwhile a simulator has usually told new states, whose acknowledgement they go with.
+  /// those that only rise wait for others of their chunk: for kRisesWait
+  /// resolutions and a step, and not at all if what readers know ends by then.
+  /// Meanwhile a simulator has usually told new states, whose acknowledgement they go with.
   void PublishClearances(World* world);
 
   /// Publishes what is new to readers (EventFilter). Contacts are numbered from 1, and leave before
@@ -75,6 +80,9 @@ class Publisher {
   /// nobody has heard of, since this service does not speak yet, are told when it does.
   void BeginEpoch(std::uint32_t epoch, const World& world);
 
+  /// As it stands by: the service in force is in this epoch, and has told all of those before.
+  void ForgetBefore(std::uint32_t epoch);
+
   EventCounters event_counters() const;
 
   /// All revisions of the detector, without stamps and numbers, which differ between instances of
@@ -105,7 +113,7 @@ class Publisher {
   std::uint32_t earliest_readers_ = 0;
   std::optional<v1::EarliestIntersection> earliest_;
   std::int64_t earliest_now_ns_ = 0, earliest_monotonic_ns_ = 0;  ///< Of `earliest_`.
-  const std::int64_t rises_wait_ns_;
+  const double resolution_s_;
 };
 
 }  // namespace collision::server

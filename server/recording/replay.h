@@ -12,9 +12,9 @@
 namespace collision::server {
 
 /// Hands out one recorded batch for each Receive(), and the times of that batch for each Read()
-/// until the next one. A daemon on it repeats every step of the recorded one and all that it
-/// published, bit for bit, with the configuration that the reader holds. It never waits, and sends
-/// nothing.
+/// until the next one. A daemon on it repeats every step of the recorded one and each event,
+/// bit for bit, with the configuration that the reader holds. Samples are numbered otherwise where
+/// the recorded one published a status within a step. It never waits, and sends nothing.
 class ReplaySource final : public Bus, public Clock {
  public:
   using OutputFunction = std::function<void(const v1::Output&)>;

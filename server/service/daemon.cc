@@ -91,10 +91,11 @@ class Daemon::Implementation {
       world_.WakeUp();
       services_.ForgetProgress();
     }
+    const ClaimPhase before = claim_.phase();
     claim_.WakeUp(gap_ns, world_.monotonic_ns());
     if (claim_.phase() == ClaimPhase::kServing) bus_.EndHold(true);
-    if (!Claim(inputs)) return false;
-    if (clock_step_) FollowStep(*clock_step_);
+    if (!Claim(inputs, before)) return false;
+    if (clock_step_ && claim_.phase() != ClaimPhase::kWaking) FollowStep();
     for (const v1::Input& input : inputs) {
       if (quarantine_ != nullptr) quarantine_->Apply(input);
       rounds_.Apply(input);
@@ -159,7 +160,7 @@ class Daemon::Implementation {
   /// Takes the time of this step and records what it applies. False: it could not be recorded, and
   /// that is to end the service.
   bool Begin(const ClockReading& reading, std::vector<v1::Input>* inputs) {
-    clock_step_ = world_.SetReading(reading);
+    if (const auto step = world_.SetReading(reading)) clock_step_ = step;
     ++steps_.batches;
     steps_.inputs += inputs->size();
     if (recorder_.Record(reading, bus_.earliest_readers(), inputs)) return true;
@@ -168,8 +169,8 @@ class Daemon::Implementation {
     return config_.on_recording_failure() != v1::Config::END;
   }
 
-  /// Takes what other services say of themselves. False: one of them has the world.
-  bool Claim(const std::vector<v1::Input>& inputs) {
+  /// Takes what other services say; `before`: this step. False: one of them has the world.
+  bool Claim(const std::vector<v1::Input>& inputs, ClaimPhase before) {
     const std::int64_t now_ns = world_.monotonic_ns();
     for (const v1::Input& input : inputs) {
       if (input.has_simulator_clock()) {
@@ -179,7 +180,6 @@ class Daemon::Implementation {
       publisher_.Hear(input);
       if (input.has_service_heard()) HearService(input.service_heard());
     }
-    const ClaimPhase before = claim_.phase();
     claim_.SetFollowed(world_.followers() > 0);
     claim_.Update(now_ns);
     services_.Write(claim_.Conflicts(now_ns), now_ns);
@@ -199,6 +199,7 @@ class Daemon::Implementation {
       return;
     if (!advanced_to_ && world_.FollowEpoch(heard.epoch()))
       publisher_.BeginEpoch(world_.epoch(), world_);
+    publisher_.ForgetBefore(heard.epoch());
     if (heard.epoch() == world_.epoch())
       world_.HearGranted(Instant::FromNanoseconds(heard.granted_until_ns()));
     for (const EndedRun& ended : EndedRunsIn(heard.ended_runs())) intake_.FollowEnd(ended);
@@ -243,8 +244,7 @@ class Daemon::Implementation {
 
   /// Removes simulators that were silent for too long. False: there was none.
   bool RemoveSilent() {
-    const std::vector<std::uint64_t> overdue =
-        world_.silence().Overdue(world_.simulators(), world_.monotonic_ns());
+    const std::vector<std::uint64_t> overdue = world_.Overdue();
     for (const std::uint64_t id : overdue) {
       Simulator* simulator = world_.Find(id);
       silence_report_.AddRemoved(simulator->name());
@@ -262,7 +262,8 @@ class Daemon::Implementation {
 
   /// The wall clock was set. Before the inputs of the step are applied: they were written by the
   /// clock as it is now, or are refused.
-  void FollowStep(const ClockStep& step) {
+  void FollowStep() {
+    const ClockStep step = *std::exchange(clock_step_, std::nullopt);
     ++steps_.clock_steps;
     steps_.last_clock_step = StepText(step);
     Log(spdlog::level::warn, "wall clock was set", steps_.last_clock_step);
@@ -349,8 +350,10 @@ class Daemon::Implementation {
   /// Publishes what does not come from the detector alone. Events have left before the clearances,
   /// and with them the grants, of the same step.
   void PublishAnswers() {
-    if (advanced_to_ && publisher_.EarliestIsDue(world_)) {
-      publisher_.PublishEarliest(detector_.Earliest(kEarliestQueriesMax), world_);
+    if (publisher_.EarliestIsDue(world_)) {
+      publisher_.PublishEarliest(
+          advanced_to_ ? detector_.Earliest(kEarliestQueriesMax) : detection::EarliestAnswer(),
+          world_);
     }
     publisher_.PublishRejections(rejections_.Take());
     publisher_.PublishClearances(&world_);
@@ -422,7 +425,7 @@ class Daemon::Implementation {
   StepCounters steps_;
   SilenceReport silence_report_{config_.clock().on_silent_simulator() == v1::Clock::RELEASE};
   ShareReport shares_;
-  std::optional<ClockStep> clock_step_;  ///< Of this step.
+  std::optional<ClockStep> clock_step_;  ///< To be followed.
   std::optional<Instant> advanced_to_;
   FullBatches full_batches_;
   std::atomic<bool> stopped_ = false;

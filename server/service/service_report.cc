@@ -65,10 +65,10 @@ void ServiceReport::LogTakeOver(std::int64_t now_ns) const {
   }
 }
 
-bool ServiceReport::MayBegin(std::size_t agents, std::int64_t now_ns) {
-  if (agents == 0) return false;
+bool ServiceReport::MayBegin(std::optional<std::size_t> agents, std::int64_t now_ns) {
+  if (!agents) return false;
   if (!awaits_since_ns_) awaits_since_ns_ = now_ns;
-  const bool knows_all = served_.service_id() != 0 && agents >= served_.agents();
+  const bool knows_all = *agents > 0 && served_.service_id() != 0 && *agents >= served_.agents();
   if (!knows_all && now_ns - *awaits_since_ns_ < kAwaitOthersNs) return false;
   awaits_since_ns_.reset();
   return true;

@@ -20,8 +20,8 @@ inline constexpr std::int64_t kAwaitOthersNs = 5'000'000'000;
 
 /// Keeps what was heard of other services: a line for each that begins to serve or to stand by, or
 /// is gone; one for each that is configured otherwise, so that results change with a take-over; and
-/// the reason of a take-over. It only tells. Times are nanoseconds of the monotonic clock. One
-/// thread.
+/// the reason of a take-over. From the same statuses it says when this one is ready, and when time
+/// may begin here. Times are nanoseconds of the monotonic clock. One thread.
 class ServiceReport {
  public:
   /// `process`: ProcessText() of this service; empty: not known.
@@ -45,9 +45,10 @@ class ServiceReport {
   /// whether this one was not ready.
   void LogTakeOver(std::int64_t now_ns) const;
 
-  /// Whether time may begin here as it has in the service that serves, or served: as many agents
-  /// are known here, or the first ones since kAwaitOthersNs.
-  bool MayBegin(std::size_t agents, std::int64_t now_ns);
+  /// Whether time may begin here as it has in the service that serves, or served: as many `agents`
+  /// of simulators that hold time are known here as there, but at least one, or the first of these
+  /// simulators since kAwaitOthersNs.
+  bool MayBegin(std::optional<std::size_t> agents, std::int64_t now_ns);
 
   /// ConfigurationDigest() of this service.
   std::uint64_t configuration() const { return configuration_; }

@@ -1,5 +1,6 @@
 #include "server/world/clearances.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "collision_core/base/check.h"
@@ -10,7 +11,8 @@ namespace {
 /// Whether who still goes by `before` knows less than now, and nothing wrong.
 bool OnlyRises(const detection::AgentClearance& before, const detection::AgentClearance& now) {
   return now.cause == detection::ClearanceCause::kNone && now.clear_until >= before.clear_until &&
-         now.unannounced_until >= before.unannounced_until && now.not_clear <= before.not_clear &&
+         now.unannounced_until >= before.unannounced_until &&
+         now.unsettled_until <= before.unsettled_until && now.not_clear == before.not_clear &&
          now.in_contact == before.in_contact && now.saturated == before.saturated &&
          now.effective_from == before.effective_from;
 }
@@ -20,7 +22,9 @@ bool OnlyRises(const detection::AgentClearance& before, const detection::AgentCl
 void Clearances::Set(std::uint32_t slot, const detection::AgentClearance& clearance) {
   const auto [known, is_new] = clearances_.try_emplace(slot, clearance);
   if (!is_new && OnlyRises(known->second, clearance)) {
-    risen_.try_emplace(slot / kSlotsPerChunk);
+    Risen& risen = risen_[slot / kSlotsPerChunk];
+    if (!clearance.not_clear)
+      risen.known_until = std::min(risen.known_until, known->second.clear_until);
   } else {
     MarkChanged(slot);
   }
@@ -66,10 +70,11 @@ void Clearances::Validate() const {
   }
 }
 
-std::set<std::uint32_t> Clearances::TakeChanged(std::int64_t now_ns, std::int64_t wait_ns) {
-  for (auto& [chunk, since_ns] : risen_) {
-    if (!since_ns) since_ns = now_ns;
-    if (now_ns - *since_ns >= wait_ns) changed_.insert(chunk);
+std::set<std::uint32_t> Clearances::TakeChanged(std::int64_t now_ns, std::int64_t wait_ns,
+                                                Instant soon) {
+  for (auto& [chunk, risen] : risen_) {
+    if (!risen.since_ns) risen.since_ns = now_ns;
+    if (now_ns - *risen.since_ns >= wait_ns || risen.known_until <= soon) changed_.insert(chunk);
   }
   for (const std::uint32_t chunk : changed_) risen_.erase(chunk);
   return std::exchange(changed_, {});

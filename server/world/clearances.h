@@ -72,12 +72,19 @@ class Clearances {
   /// Walks everything: each clearance has its place in the queue.
   void Validate() const;
 
-  /// The chunks that are marked, in ascending order; of those that may wait the ones that have
-  /// waited for `wait_ns` of monotonic time, counted from the first call after they were marked.
-  [[nodiscard]] std::set<std::uint32_t> TakeChanged(std::int64_t now_ns, std::int64_t wait_ns);
+  /// The chunks that are marked, in ascending order. Of those that may wait the ones that have
+  /// waited for `wait_ns` of monotonic time, counted from the first call after they were marked, or
+  /// have an agent of which readers know only that it is clear up to `soon`.
+  [[nodiscard]] std::set<std::uint32_t> TakeChanged(std::int64_t now_ns, std::int64_t wait_ns,
+                                                    Instant soon);
 
  private:
   using SlotIndex = Index<struct SlotTag>;
+
+  struct Risen {
+    std::optional<std::int64_t> since_ns;    ///< nullopt: since the last TakeChanged().
+    Instant known_until = Instant::Never();  ///< To readers, that one of its agents is clear.
+  };
 
   static Instant EndOf(const detection::AgentClearance& clearance) {
     return clearance.in_contact ? Instant::Always() : clearance.clear_until;
@@ -86,8 +93,7 @@ class Clearances {
   std::map<std::uint32_t, detection::AgentClearance> clearances_;
   EventQueue<SlotIndex> ends_;  // EndOf() of each clearance
   std::set<std::uint32_t> changed_;
-  /// Chunks that may wait, and since when; nullopt: since the last call of TakeChanged().
-  std::map<std::uint32_t, std::optional<std::int64_t>> risen_;
+  std::map<std::uint32_t, Risen> risen_;  ///< The chunks that may wait.
   Lowerings lowerings_;
   std::int64_t waiting_since_ns_ = 0;  ///< While samples are not acknowledged.
 };

@@ -36,15 +36,15 @@ void World::TakeOver() {
     roster.push_back({.id = id, .run = simulator.run(), .name = simulator.name(), .granted = {}});
   }
   silence_.AwaitRoster(roster, monotonic_ns());
-  promised_from_ = granted_;
+  promised_from_ = std::max({granted_, heard_granted_, Instant()});
   RaiseInheritedGrant();
   ShareGrant();
 }
 
-std::size_t World::agents_in_time() const {
-  std::size_t count = 0;
+std::optional<std::size_t> World::agents_in_time() const {
+  std::optional<std::size_t> count;
   for (const auto& [id, simulator] : simulators_) {
-    if (simulator.holds_time()) count += simulator.agents().size();
+    if (simulator.holds_time()) count = count.value_or(0) + simulator.agents().size();
   }
   return count;
 }
@@ -74,10 +74,12 @@ Instant World::NewestClock() const {
 /// that the service had: by the time at which all follow this service, it has those clocks, too.
 void World::RaiseInheritedGrant() {
   if (promised_from_ == Instant::Always() || silence_.roster().complete()) return;
-  const Instant newest = std::max(NewestClock(), heard_granted_);
-  promised_from_ =
-      std::max(promised_from_, numeric::AddRoundedUp(std::max(newest, granted_), grant_ahead_max_));
+  const Instant newest = std::max({NewestClock(), heard_granted_, granted_});
+  const Instant from = numeric::AddRoundedUp(newest, grant_ahead_max_);
+  if (from <= promised_from_) return;
+  promised_from_ = from;
   silence_.roster().RaiseGrant(promised_from_);
+  for (auto& [id, simulator] : simulators_) simulator.agents().clearances().MarkAllChanged();
 }
 
 }  // namespace collision::server

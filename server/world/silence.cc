@@ -116,13 +116,13 @@ std::vector<Awaited> Silence::Waited(const Simulators& simulators, std::int64_t 
   return waited;
 }
 
-std::optional<std::int64_t> Silence::NextDue(const Simulators& simulators,
+std::optional<std::int64_t> Silence::NextDue(const Simulators& simulators, bool removes,
                                              std::int64_t now_ns) const {
   std::optional<std::int64_t> next = RosterDue();
   TakeEarlier(progress_.NextDue(now_ns), &next);
   for (const auto& [id, simulator] : simulators) {
     TakeEarlier(ReleaseDue(simulator), &next);
-    TakeEarlier(RemovalDue(simulator), &next);
+    if (removes) TakeEarlier(RemovalDue(simulator), &next);
   }
   return next;
 }

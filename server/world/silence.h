@@ -71,8 +71,10 @@ class Silence {
   /// Whom the world's time waits for, by name.
   std::vector<Awaited> Waited(const Simulators& simulators, std::int64_t now_ns) const;
 
-  /// When one of the answers may change without any input; nullopt: never.
-  std::optional<std::int64_t> NextDue(const Simulators& simulators, std::int64_t now_ns) const;
+  /// When one of the answers may change without any input; nullopt: never. `removes`: that of
+  /// Overdue() is asked for, too.
+  std::optional<std::int64_t> NextDue(const Simulators& simulators, bool removes,
+                                      std::int64_t now_ns) const;
 
  private:
   std::optional<std::int64_t> ReleaseDue(const Simulator& simulator) const;

@@ -202,6 +202,7 @@ void World::MoveOn() {
 }
 
 std::vector<std::string> World::ReleaseSilent() {
+  if (IsWaking()) return {};
   for (auto& [id, simulator] : simulators_) {
     const auto doubted_until = simulator.doubted_until_ns();
     if (doubted_until && *doubted_until <= monotonic_ns()) {
@@ -215,8 +216,14 @@ std::vector<std::string> World::ReleaseSilent() {
 
 std::vector<Awaited> World::Waited() const { return silence_.Waited(simulators_, monotonic_ns()); }
 
+std::vector<std::uint64_t> World::Overdue() const {
+  if (stands_by_ || IsWaking()) return {};
+  return silence_.Overdue(simulators_, monotonic_ns());
+}
+
 std::optional<std::int64_t> World::NextRelease() const {
-  return silence_.NextDue(simulators_, monotonic_ns());
+  const auto due = silence_.NextDue(simulators_, !stands_by_, monotonic_ns());
+  return due && woke_ns_ ? std::max(*due, *woke_ns_ + kWakingTime) : due;
 }
 
 void World::EndRun(Simulator* simulator, EndCause cause) {

@@ -124,9 +124,14 @@ class World {
   /// now. Call it once a step, after the inputs.
   std::vector<std::string> ReleaseSilent();
 
-  /// The process of the service has stood still until now. It has not heard anybody meanwhile, so
-  /// the end of a simulator whose name another program waits for is not believed before
-  /// kWakingTime is over.
+  /// The simulators that have been silent for `remove_silent_after_s`. None while this service
+  /// stands by: it may be the only one that does not hear them, and the one in force says whom it
+  /// has removed.
+  std::vector<std::uint64_t> Overdue() const;
+
+  /// The process of the service has stood still until now. It has not heard anybody meanwhile:
+  /// before kWakingTime is over nobody is released or removed, and the end of a simulator whose
+  /// name another program waits for is not believed.
   void WakeUp() { woke_ns_ = monotonic_ns(); }
   bool IsWaking() const { return woke_ns_ && monotonic_ns() - *woke_ns_ < kWakingTime; }
 
@@ -198,7 +203,8 @@ class World {
   std::size_t followers() const;
 
   /// Agents of simulators that hold time: with their first states they are, or will be, admitted.
-  std::size_t agents_in_time() const;
+  /// nullopt: no simulator does.
+  std::optional<std::size_t> agents_in_time() const;
 
   /// The latest time of which this service knows, as it stands by.
   Instant newest() const { return simulated_ ? std::max(NewestClock(), heard_granted_) : now_; }

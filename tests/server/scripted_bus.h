@@ -80,6 +80,12 @@ class ScriptedDaemon {
     if (!daemon_.Step()) throw std::logic_error("the daemon has ended");
   }
 
+  /// Nothing arrives for so long. One step of it would be a standstill.
+  void Pass(double seconds) {
+    for (; seconds > 1; --seconds) Step({}, 1);
+    Step({}, seconds);
+  }
+
   ScriptedBus& bus() { return bus_; }
   Daemon& daemon() { return daemon_; }
 

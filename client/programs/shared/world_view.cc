@@ -254,16 +254,25 @@ void WorldView::Handle(const v1::AgentDescription& description) {
       {description.simulator_id(), description.run(), description.slot(), description.generation()},
       description.agent_name());
   if (names_.size() > kNamesMax) names_.erase(names_.begin());
-  const Key first{description.simulator_id(), 0};
-  // A simulator that restarts leaves its former agents behind.
-  for (auto agent = descriptions_.lower_bound(first);
-       agent != descriptions_.end() && agent->first.first == first.first;) {
-    agent = agent->second.run() < description.run() ? descriptions_.erase(agent) : std::next(agent);
+  if (description.slot() > wire::kSlotMax) return;  // the service refuses it
+  if (newest_runs_.size() >= kSimulatorNamesMax) newest_runs_.clear();
+  std::uint32_t& newest = newest_runs_[description.simulator_id()];
+  if (description.run() > newest) {
+    newest = description.run();
+    ForgetFormerRuns(description.simulator_id(), newest);
+  }
+  descriptions_[{description.simulator_id(), description.slot()}] = description;
+}
+
+/// A simulator that restarts leaves its former agents behind.
+void WorldView::ForgetFormerRuns(std::uint64_t simulator, std::uint32_t run) {
+  auto agent = descriptions_.lower_bound(Key{simulator, 0});
+  while (agent != descriptions_.end() && agent->first.first == simulator) {
+    agent = agent->second.run() < run ? descriptions_.erase(agent) : std::next(agent);
   }
   std::erase_if(shapes_, [&](const auto& shape) {
-    return shape.first.first == description.simulator_id() && shape.second.run < description.run();
+    return shape.first.first == simulator && shape.second.run < run;
   });
-  descriptions_[{description.simulator_id(), description.slot()}] = description;
 }
 
 void WorldView::Handle(const v1::AgentRemoval& removal) {
@@ -290,6 +299,7 @@ void WorldView::Handle(const v1::ShapePart& part) {
 
 void WorldView::Handle(const v1::AgentStates& states) {
   for (const v1::AgentState& state : states.states()) {
+    if (state.slot() > wire::kSlotMax) continue;
     states_[{states.simulator_id(), state.slot()}] = {states.run(), state};
   }
 }

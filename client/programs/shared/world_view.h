@@ -118,6 +118,7 @@ class WorldView {
   void Handle(const v1::ShapePart& part);
   void Handle(const v1::AgentStates& states);
   void Handle(const v1::Clearance& clearance);
+  void ForgetFormerRuns(std::uint64_t simulator, std::uint32_t run);
   void KeepSimulatorName(std::uint64_t id, const std::string& name);
   std::string SimulatorName(std::uint64_t id) const;
   AgentPresence PresenceOf(const v1::AgentDescription& description) const;
@@ -136,9 +137,10 @@ class WorldView {
   std::map<std::uint64_t, Standby> standbys_;  ///< By service.
   std::optional<v1::EarliestIntersection> earliest_;
   std::map<Key, v1::AgentDescription> descriptions_;
-  std::map<AgentId, std::string> names_;                            ///< Also of agents that left.
-  std::map<std::uint64_t, std::string> simulator_names_;            ///< Likewise, by id.
-  std::map<Key, std::pair<std::uint32_t, v1::AgentState>> states_;  ///< With their run.
+  std::map<std::uint64_t, std::uint32_t> newest_runs_;    ///< By simulator, of its descriptions.
+  std::map<AgentId, std::string> names_;                  ///< Also of agents that left.
+  std::map<std::uint64_t, std::string> simulator_names_;  ///< Likewise, by id.
+  std::map<Key, std::pair<std::uint32_t, v1::AgentState>> states_;          ///< With their run.
   std::map<Key, std::pair<std::uint32_t, v1::AgentClearance>> clearances_;  ///< With their run.
   std::map<Key, v1::ServiceStamp> clearance_stamps_;                   ///< By simulator and chunk.
   std::map<std::pair<std::uint64_t, std::string>, ShapeView> shapes_;  ///< By simulator and hash.

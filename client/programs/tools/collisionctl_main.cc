@@ -146,6 +146,10 @@ int Run(const std::string& command, const Options& options) {
       return false;
     return view.knows_all_agents();
   });
+  if (!view.knows_all_agents() && stopped == 0) {
+    std::cerr << "collisionctl: not all agents were heard within " << options.timeout_s
+              << " s: what follows may be incomplete; --timeout sets how long to wait\n";
+  }
   if (options.follow) {
     Follow(&monitor, &view, options.json);
   } else {

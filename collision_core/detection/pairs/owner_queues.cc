@@ -161,9 +161,11 @@ std::vector<PairTurn> OwnerQueues::Take(std::uint64_t units,
     const PairSlot slot = owner.first;
     const std::uint64_t takes = cost(slot);
     if (!turns.empty() && takes > left) break;
-    left -= std::min(left, takes);
     const bool held = IsHeld(owner);
-    const std::uint64_t most = held ? std::min(slice_, units) : units;
+    // A pair that costs more than a slice has all of it, in a step of its own.
+    if (held && taken > 0 && taken + takes > slice_) continue;
+    left -= std::min(left, takes);
+    const std::uint64_t most = held ? std::min(std::max(slice_, takes), units) : units;
     if (held) owner.sliced_at = now;
     turns.push_back({slot, owner.work.owner, takes, most});
     owner.account->credit -= static_cast<double>(takes);

@@ -75,7 +75,8 @@ class SenderQueues {
   }
 
   /// Appends at most `samples` items, as many as have `bytes` together, but one in any case if
-  /// `items` is empty. What is too large for the rest of them comes first the next time.
+  /// `items` is empty. What is too large for the rest of them waits, at most a turn of
+  /// each other sender.
   void Take(std::size_t samples, std::size_t bytes, std::int64_t now_ns, std::vector<Item>* items) {
     Budget budget{samples, bytes};
     for (auto& [sender, queue] : queues_) Refill(&queue, now_ns);

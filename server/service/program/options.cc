@@ -85,7 +85,7 @@ void Define(CLI::App* app, Options* options) {
   auto* replay =
       app->add_option("--replay", options->replay_file,
                       "Repeat the run that --record wrote to FILE, without DDS, with its own "
-                      "configuration; prints each event that it published as a line of JSON");
+                      "configuration; prints each event of its readers as a line of JSON");
   for (auto* file : {config, record, replay}) file->type_name("FILE")->check(NotEmpty());
   check->needs(config)->excludes(print);
   for (auto* other : {config, check, print, domain, record}) replay->excludes(other);

@@ -118,11 +118,13 @@ std::unique_ptr<Quarantine> OpenQuarantine(const v1::Config& config, const Journ
   }
 }
 
-/// An id that no other service has: of two random ones, equal with probability 2^-64.
-std::uint64_t DrawInstance() {
+/// An id that no other service has: of two random ones, equal with probability 2^-63. Of several
+/// that start together the lowest serves: never one `without_journal` beside the one that holds it.
+std::uint64_t DrawInstance(bool without_journal) {
   std::random_device source;
-  const std::uint64_t high = source();
-  return std::max<std::uint64_t>(high << 32 | source(), 1);
+  constexpr std::uint64_t kHighest = std::uint64_t{1} << 63;
+  const std::uint64_t drawn = (std::uint64_t{source()} << 32 | source()) & ~kHighest;
+  return without_journal ? drawn | kHighest : std::max<std::uint64_t>(drawn, 1);
 }
 
 /// `again`: it has left the world to another service, and is to stand by for that one.
@@ -154,7 +156,7 @@ std::optional<int> ServeOnce(const v1::Config& config, const std::string& record
   }
   if (opens_later) open_journal = [&] { return (journal = ReadJournal(config)).get(); };
   const std::unique_ptr<Quarantine> quarantine = OpenQuarantine(config, journal.get());
-  ClaimOptions claim = {.instance = DrawInstance(),
+  ClaimOptions claim = {.instance = DrawInstance(opens_later),
                         .term_before = journal ? journal->term() : 0,
                         .wait_ns = ToNanoseconds(config.claim_wait_s()),
                         .heard_for_ns = wire::kServiceLease,

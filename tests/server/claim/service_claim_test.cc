@@ -175,9 +175,12 @@ TEST(ServiceClaim, AStandbyThatStoodStillListensBeforeItTakesOver) {
   claim.HearEnd(1);
   claim.Update(9 * kSecond);
   EXPECT_EQ(claim.phase(), ClaimPhase::kStandby);
-  EXPECT_EQ(claim.NextDue(), 9 * kSecond + kSecond / 10);
+  constexpr std::int64_t kListens = 3 * kSecond / 20;
+  EXPECT_EQ(claim.NextDue(), 9 * kSecond + kListens);
   ServiceClaim alone = claim;
-  alone.Update(9 * kSecond + kSecond / 10);
+  alone.Update(9 * kSecond + kListens - 1);
+  EXPECT_EQ(alone.phase(), ClaimPhase::kStandby) << "the other one may have stood still, too";
+  alone.Update(9 * kSecond + kListens);
   EXPECT_EQ(alone.phase(), ClaimPhase::kServing) << "the other one has really ended";
   claim.Hear(Heard(1, OtherPhase::kServing, 3, 1), 9 * kSecond + 1);
   claim.Update(20 * kSecond);
@@ -185,6 +188,51 @@ TEST(ServiceClaim, AStandbyThatStoodStillListensBeforeItTakesOver) {
   claim.HearEnd(1);
   claim.Update(20 * kSecond + 1);
   EXPECT_EQ(claim.phase(), ClaimPhase::kServing) << "it has listened long ago";
+}
+
+// Goal:   a machine that is too slow for its lease makes a service late, not silent: neither one
+//         that stands by, nor then as it serves, nor one that has served.
+TEST(ServiceClaim, OneWhoseEveryStepTakesLongTakesOverAndServes) {
+  constexpr std::int64_t kLong = kSecond / 10;
+  ServiceClaim standby = StandingBy(5), serving(Standby(6));
+  for (const std::int64_t now_ns : {std::int64_t{0}, kSecond}) serving.Update(now_ns);
+  std::int64_t now_ns = 9 * kSecond;
+  standby.HearEnd(1);
+  std::vector<std::int64_t> not_served_ns{0, 0};
+  for (; now_ns < 19 * kSecond; now_ns += kLong) {
+    for (ServiceClaim* claim : {&standby, &serving}) {
+      claim->WakeUp(kLong, now_ns);
+      claim->Update(now_ns);
+      if (claim->phase() != ClaimPhase::kServing) not_served_ns[claim == &serving] += kLong;
+    }
+  }
+  for (const std::int64_t ns : not_served_ns) {
+    EXPECT_GE(ns, kSecond) << "it listens first";
+    EXPECT_LE(ns, 3 * kSecond);
+  }
+  serving.WakeUp(2 * kSecond, now_ns + 2 * kSecond);
+  EXPECT_EQ(serving.phase(), ClaimPhase::kWaking) << "that was no step";
+}
+
+TEST(ServiceClaim, NobodyWaitsForOneThatIsOnlyStarting) {
+  ServiceClaim claim = StandingBy(5);
+  claim.Hear({.instance = 2, .sequence = 1}, 9 * kSecond);
+  claim.HearEnd(1);
+  claim.Update(9 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
+}
+
+TEST(ServiceClaim, AServiceThatListensDoesNotBeginToSpeak) {
+  ServiceClaim claim = StandingBy(5);
+  claim.HearEnd(1);
+  claim.Update(9 * kSecond);
+  ASSERT_EQ(claim.phase(), ClaimPhase::kServing);
+  claim.HearClock(5, claim.term());
+  claim.WakeUp(kSecond, 10 * kSecond);
+  ASSERT_EQ(claim.phase(), ClaimPhase::kWaking);
+  EXPECT_FALSE(claim.BeginsToSpeak());
+  claim.Update(11 * kSecond);
+  EXPECT_TRUE(claim.BeginsToSpeak());
 }
 
 TEST(ServiceClaim, ItsOwnStatusIsNoOtherService) {

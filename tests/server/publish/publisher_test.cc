@@ -168,7 +168,7 @@ TEST(Publisher, TheEventLogCountsEventsWithoutTheirStamps) {
 
 TEST(Publisher, TheChunkOfTheGrantLeavesLastAndEachOnce) {
   OneSimulator one;
-  (void)one.simulator->agents().clearances().TakeChanged(0, 0);
+  (void)one.simulator->agents().clearances().TakeChanged(0, 0, {});
   one.simulator->time().Grant(At(kSecond));
   for (const std::uint32_t slot : {0u, 64u, 200u}) {
     one.simulator->agents().clearances().MarkChanged(slot);
@@ -194,13 +194,13 @@ TEST(Publisher, AClearanceThatRisesWaitsByTheWallClockOnly) {
     agents.Add(0, {1, 1, detection::AgentDeclaration{}});
     agents.Admit(0, At(0), 1);
     const detection::AgentId id = one.simulator->IdOf(0, 1);
-    agents.SetClearance({.agent = id, .clear_until = At(1)});
+    agents.SetClearance({.agent = id, .clear_until = At(kSecond)});
     ScriptedBus bus;
     const ServiceClaim claim = Claimed();
     Publisher publisher(config, &claim, &bus);
     publisher.PublishClearances(&one.world);
     EXPECT_EQ(Chunks(bus).size(), 1u);
-    agents.SetClearance({.agent = id, .clear_until = At(2)});
+    agents.SetClearance({.agent = id, .clear_until = At(2 * kSecond)});
     publisher.PublishClearances(&one.world);
     EXPECT_EQ(Chunks(bus).size(), wall ? 1u : 2u);
     one.world.SetReading({kSecond, kSecond});

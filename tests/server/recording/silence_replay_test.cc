@@ -59,11 +59,12 @@ TEST_F(SilenceReplayTest, EveryOutputComesAgain) {
                    From(name[0], ClockAfter(name, 0, 1, 1))},
                   0.01);
     }
-    daemon.Step({}, 9);  // nobody of the roster has come
+    daemon.Pass(9);  // nobody of the roster has come
     daemon.bus().earliest_read_by = 1;
     daemon.Step({Liveliness('d', "delta", false)}, 0.01);
-    daemon.Step({}, 9);
-    daemon.Step({}, 21);
+    daemon.Pass(9);
+    daemon.Step({}, 9);  // it stands still
+    daemon.Pass(12);
     daemon.Step({Command(1, v1::OPERATOR_EVICT, "alpha")}, 0.01);
     daemon.Step({Command(2, v1::OPERATOR_RESTART_TIME)}, 0.01);
     recorded = daemon.bus().outputs;

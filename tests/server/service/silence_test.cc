@@ -153,10 +153,21 @@ TEST_F(SilenceReleaseTest, WhereNobodyWaitsNobodyIsReleased) {
   EXPECT_EQ(daemon_.status().agents(), 2u);
 }
 
+// Goal:   a standstill of the service is nobody's silence.
+TEST_F(SilenceReleaseTest, AServiceThatStoodStillReleasesNobodyBeforeItHasListened) {
+  daemon_.Step(Told("alpha", kTenth), 0.01);
+  daemon_.Step({}, 3600);
+  daemon_.Step({}, 0.001);
+  EXPECT_GT(daemon_.bus().timeout_ns, 0) << "it does not spin";
+  daemon_.Step(Told("beta", kTenth), 0.9);
+  daemon_.Step(Told("alpha", 2 * kTenth), 0.01);
+  EXPECT_EQ(now_ns(), kTenth) << "beta holds time all along";
+}
+
 TEST_F(SilenceReleaseTest, TheReleasedAreRemovedAfterTheConfiguredTimeAndTold) {
   daemon_.Step(Told("alpha", kTenth), 0.01);
-  daemon_.Step({}, 8.1);
-  daemon_.Step({}, 18);
+  daemon_.Pass(8.1);
+  daemon_.Pass(18);
   EXPECT_EQ(daemon_.status().agents(), 2u);
   daemon_.Step({}, 1.5);
   const v1::ServiceStatus status = daemon_.status();
@@ -215,7 +226,7 @@ TEST(SilenceOnTheWallClock, TheDeadAreRemovedAfterTheConfiguredTimeAndTheirPlace
   daemon.Step(Joins(&daemon, "alpha", 1), 1);
   daemon.Step(Joins(&daemon, "beta", 2), 0.001);
   daemon.Step({Liveliness(2, "beta", false)}, 1);
-  daemon.Step({}, 29.9);
+  daemon.Pass(29.9);
   daemon.Step(Joins(&daemon, "gamma", 3), 0.01);
   ASSERT_EQ(daemon.rejections().size(), 1u);
   EXPECT_EQ(daemon.rejections()[0].reason(), v1::REJECTED_TOO_MANY_SIMULATORS);

@@ -217,6 +217,62 @@ TEST_F(StandbyOfDaemonTest, ContactsOfAnEpochThatEndedUnheardAreToldInTheNextOne
   }
 }
 
+class EpochThatEndsBesideItTest : public StandbyOfDaemonTest {
+ protected:
+  EpochThatEndsBesideItTest() {
+    Voyage run;
+    for (int step = 0; step <= kSteps; ++step) daemon_.Step(run.Told(step), 0.01);
+    daemon_.Step(Joined(run.Removals(), {run.End()}), 0.01);
+    EXPECT_EQ(epoch(), 2u);
+  }
+
+  /// It takes over and is followed.
+  void TakeOver() {
+    EndOther();
+    const Voyage next = {.sender = 2, .run = 2};
+    daemon_.Step(next.ToldTo(2, 0), 0.01);
+  }
+};
+
+// Goal:   likewise where the epoch ends between the last word of the service in force and the end
+//         of its lease.
+TEST_F(EpochThatEndsBesideItTest, ContactsThatADeadServiceHasNotToldAreTold) {
+  TakeOver();
+  ASSERT_FALSE(Contacts().empty());
+  EXPECT_EQ(Contacts().back().status(), v1::EVENT_ENDED);
+  EXPECT_EQ(Contacts().back().stamp().epoch(), 1u);
+}
+
+TEST_F(EpochThatEndsBesideItTest, ButNotWhereThatServiceIsInItsNextEpoch) {
+  HearOther({.epoch = 2});
+  TakeOver();
+  EXPECT_TRUE(Contacts().empty());
+}
+
+// Goal:   a simulator that waits for its time to come before it has agents gets it.
+TEST_F(StandbyOfDaemonTest, TimeGoesOnWithoutAgents) {
+  HearOther({.granted_until_ns = kTenth});
+  daemon_.Step({From(1, ClockAfter("alpha", 0, 0, 0))}, 0.01);
+  EndOther();
+  v1::SimulatorClock clock = ClockAfter("alpha", kTenth, 0, 0);
+  clock.set_service_id(2);
+  daemon_.Step({From(1, clock)}, 1);
+  EXPECT_EQ(daemon_.status().now_ns(), 0) << "others may be there";
+  daemon_.Pass(5);
+  EXPECT_EQ(daemon_.status().now_ns(), kTenth);
+}
+
+// Goal:   what the other service has granted counts, though time has not begun here.
+TEST_F(StandbyOfDaemonTest, PromisesCountFromTheGrantsOfTheOtherService) {
+  HearOther({.now_ns = 600 * kSecond, .granted_until_ns = 620 * kSecond, .agents = 4});
+  const Voyage run{.first_clock_ns = 600 * kSecond};
+  daemon_.Step(run.ToldTo(1, 0), 0.01);
+  EndOther();
+  daemon_.Step(run.ToldTo(2, 0), 0.01);
+  daemon_.Pass(6);
+  EXPECT_GE(EffectiveFrom("alpha"), 620 * kSecond);
+}
+
 // Goal:   a run that the service in force has ended before this one came stays ended.
 TEST_F(StandbyOfDaemonTest, RunsThatTheOtherServiceHasEndedNeverComeBack) {
   const Voyage evicted{.run = 3};
@@ -300,6 +356,25 @@ TEST_F(OneBesideAnotherTest, AClockBeyondAnyGrantAfterTheTakeOverHoldsNoOther) {
   EXPECT_EQ(daemon_.status().now_ns(), kSteps * kTenth);
 }
 
+// Goal:   an agent that one simulator removes before the others have come so far has met whom it
+//         has met.
+TEST_F(OneBesideAnotherTest, WhatOneRemovesAheadOfTheOthersIsThereUntilThen) {
+  HearOther({.granted_until_ns = 2 * kSecond});
+  for (int step = 1; step <= kSteps; ++step) daemon_.Step(honest_.Told(step), 0.01);
+  daemon_.Step(honest_.Removals(), 0.01);
+  EXPECT_EQ(daemon_.status().agents(), 4u);
+  for (int step = 1; step <= kSteps; ++step) daemon_.Step(other_.Told(step), 0.01);
+  EXPECT_EQ(daemon_.status().agents(), 2u);
+  EndOther();
+  daemon_.Step(other_.ToldTo(2, kSteps), 0.01);
+  const std::vector<v1::CollisionEvent> contacts = Contacts();
+  EXPECT_TRUE(std::any_of(contacts.begin(), contacts.end(), [](const v1::CollisionEvent& event) {
+    return event.status() == v1::EVENT_ENDED &&
+           event.lower().simulator_id() == SimulatorId("alpha") &&
+           event.higher().simulator_id() == SimulatorId("alpha");
+  }));
+}
+
 // Goal:   what one simulator tells of times that never come leaves the others their room.
 TEST_F(OneBesideAnotherTest, AFloodOfOneTakesAnEighthOfWhatIsKept) {
   std::vector<v1::Input> flood;
@@ -312,6 +387,53 @@ TEST_F(OneBesideAnotherTest, AFloodOfOneTakesAnEighthOfWhatIsKept) {
   v1::AgentState ahead = honest_.StateOf(0, 30);
   daemon_.Step({From(1, ahead, "alpha")}, 0.01);
   EXPECT_EQ(daemon_.counter("states_received"), taken) << "kept until its round";
+}
+
+// Goal:   a standby ends nobody's run because only its own network does not hear it.
+TEST(StandbyOnTheWallClock, RemovesNobodyByItsOwnView) {
+  v1::Config config;
+  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_remove_silent_after_s(30);
+  DaemonParts parts;
+  parts.claim = {.instance = 2, .stands_by = true, .waking_ns = 10 * kSecond};
+  ScriptedDaemon daemon(config, std::move(parts));
+  v1::Input heard;
+  heard.mutable_service_heard()->set_service_id(1);
+  heard.mutable_service_heard()->set_term(1);
+  heard.mutable_service_heard()->set_phase(v1::PHASE_SERVING);
+  daemon.Step({heard});
+  daemon.Step(
+      {From(1, Description("alpha", 0)), From(1, State(0, daemon.bus().wall_ns, 1), "alpha")},
+      0.01);
+  daemon.Step({Liveliness(1, "alpha", false)}, 0.01);
+  daemon.Pass(40);
+  EXPECT_EQ(daemon.status().agents(), 1u);
+  daemon.Step({}, 0.001);
+  EXPECT_GT(daemon.bus().timeout_ns, 0) << "nothing is due";
+  heard.mutable_service_heard()->set_ended(true);
+  daemon.Step({heard}, 0.01);
+  EXPECT_EQ(daemon.status().agents(), 0u) << "it serves, and nobody else hears it";
+}
+
+// Goal:   a service that may have been replaced publishes nothing before it knows.
+TEST(ServiceThatStoodStill, ListensBeforeItPublishes) {
+  DaemonParts parts;
+  parts.claim = {
+      .instance = 2, .heard_for_ns = 2 * kSecond, .stands_by = true, .waking_ns = kSecond / 2};
+  ScriptedDaemon daemon(VoyageConfig(), std::move(parts));
+  const Voyage run;
+  daemon.Step(run.Told(0), 0.01);
+  ASSERT_EQ(daemon.daemon().claim().phase(), ClaimPhase::kServing);
+  const std::size_t before = daemon.bus().outputs.size();
+  daemon.Step(run.Told(1), 3);
+  EXPECT_EQ(daemon.daemon().claim().phase(), ClaimPhase::kWaking);
+  EXPECT_EQ(daemon.bus().outputs.size(), before);
+  daemon.Step({}, 0.2);
+  daemon.Step({}, 0.2);
+  EXPECT_EQ(daemon.bus().outputs.size(), before);
+  daemon.Step({}, 0.2);
+  EXPECT_EQ(daemon.daemon().claim().phase(), ClaimPhase::kServing);
+  EXPECT_GT(daemon.bus().outputs.size(), before);
 }
 
 }  // namespace

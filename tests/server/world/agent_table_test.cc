@@ -28,26 +28,26 @@ AgentTable Table() {
   AgentTable table;
   table.Add(70, Described(3));
   table.Admit(70, At(1), 10);
-  EXPECT_EQ(table.clearances().TakeChanged(0, 0), Chunks{1});
+  EXPECT_EQ(table.clearances().TakeChanged(0, 0, {}), Chunks{1});
   return table;
 }
 
 TEST(AgentTable, EachChangeMarksItsChunkAndNoOther) {
   AgentTable table = Table();
   table.Acknowledge(70, At(2), 11);
-  EXPECT_EQ(table.clearances().TakeChanged(0, 0), Chunks{1});
+  EXPECT_EQ(table.clearances().TakeChanged(0, 0, {}), Chunks{1});
   EXPECT_EQ(table.Find(70)->stamp(), At(2));
   EXPECT_EQ(table.Find(70)->acknowledged_sequence(), 11u);
   table.Revise(70, 2, {});
-  EXPECT_EQ(table.clearances().TakeChanged(0, 0), Chunks{1});
+  EXPECT_EQ(table.clearances().TakeChanged(0, 0, {}), Chunks{1});
   EXPECT_EQ(table.Find(70)->revision(), 2u);
   table.SetClearance(ClearanceOf(70, 3, At(9)));
-  EXPECT_EQ(table.clearances().TakeChanged(0, 0), Chunks{1});
+  EXPECT_EQ(table.clearances().TakeChanged(0, 0, {}), Chunks{1});
   EXPECT_EQ(table.clearances().all().at(70).clear_until, At(9));
   table.Remove(70);
-  EXPECT_EQ(table.clearances().TakeChanged(0, 0), Chunks{1});
+  EXPECT_EQ(table.clearances().TakeChanged(0, 0, {}), Chunks{1});
   EXPECT_TRUE(table.clearances().all().empty());
-  EXPECT_EQ(table.clearances().TakeChanged(0, 0), Chunks{});
+  EXPECT_EQ(table.clearances().TakeChanged(0, 0, {}), Chunks{});
   table.Validate();
 }
 
@@ -79,7 +79,7 @@ TEST(AgentTable, WhatASampleDoesNotSayMarksNothing) {
   EXPECT_EQ(table.RecordState(70, 3, 12), StateOrder::kNew);
   table.SetWaiting(5, {.generation = 1, .sequence = 1, .state = {}});
   table.Add(6, Described(1));
-  EXPECT_EQ(table.clearances().TakeChanged(0, 0), Chunks{});
+  EXPECT_EQ(table.clearances().TakeChanged(0, 0, {}), Chunks{});
   table.Validate();
 }
 
@@ -88,7 +88,7 @@ TEST(AgentTable, AClearanceOfAnAgentThatIsGoneIsIgnored) {
   table.SetClearance(ClearanceOf(70, 2, At(9)));
   table.SetClearance(ClearanceOf(71, 3, At(9)));
   EXPECT_TRUE(table.clearances().all().empty());
-  EXPECT_EQ(table.clearances().TakeChanged(0, 0), Chunks{});
+  EXPECT_EQ(table.clearances().TakeChanged(0, 0, {}), Chunks{});
 }
 
 TEST(AgentTable, StatesAreNewOnceAndNeverAfterTheirGeneration) {
@@ -127,7 +127,7 @@ TEST(AgentTable, ANewRunMarksEveryUsedSlot) {
   EXPECT_THROW(table.Clear(), CheckFailure);
   table.Remove(70);
   table.Clear();
-  EXPECT_EQ(table.clearances().TakeChanged(0, 0), (Chunks{1, 3}));
+  EXPECT_EQ(table.clearances().TakeChanged(0, 0, {}), (Chunks{1, 3}));
   EXPECT_EQ(table.RecordState(70, 1, 1), StateOrder::kNew);
   table.Validate();
 }
@@ -136,7 +136,7 @@ TEST(AgentTable, AnExpelledAgentKeepsItsDescriptionAndWaitsForItsNextState) {
   AgentTable table = Table();
   table.RecordState(70, 3, 1);
   table.Admit(70, At(1), 1);
-  static_cast<void>(table.clearances().TakeChanged(0, 0));
+  static_cast<void>(table.clearances().TakeChanged(0, 0, {}));
   table.SetWaiting(70, {.generation = 3, .sequence = 2, .state = {}});
   table.Expel(70);
   ASSERT_NE(table.Find(70), nullptr);
@@ -144,7 +144,7 @@ TEST(AgentTable, AnExpelledAgentKeepsItsDescriptionAndWaitsForItsNextState) {
   EXPECT_EQ(table.Find(70)->stamp(), Instant::Always());
   EXPECT_EQ(table.Find(70)->acknowledged_sequence(), 0u);
   EXPECT_EQ(table.Waiting(70), nullptr);
-  EXPECT_EQ(table.clearances().TakeChanged(0, 0), (Chunks{1}));
+  EXPECT_EQ(table.clearances().TakeChanged(0, 0, {}), (Chunks{1}));
   EXPECT_EQ(table.RecordState(70, 3, 1), StateOrder::kRepeated) << "what was known stays known";
   table.Expel(5);
   table.Validate();

@@ -86,7 +86,7 @@ TEST(World, ALowerRunIsOldAndAHigherOneStartsAnew) {
   EXPECT_EQ(higher.simulator->agents().Waiting(70), nullptr);
   EXPECT_EQ(higher.simulator->run(), 6u);
   EXPECT_EQ(higher.simulator->name(), "a");
-  EXPECT_TRUE(higher.simulator->agents().clearances().TakeChanged(0, 0).contains(1));
+  EXPECT_TRUE(higher.simulator->agents().clearances().TakeChanged(0, 0, {}).contains(1));
 }
 
 // Goal:   states alone prove nothing: they make no simulator and take over none, but are not
@@ -189,19 +189,19 @@ TEST(World, GrantsWhatIsClear) {
   a.agents().Admit(0, At(0), 1);
   const auto clear_until = [&world, &a](Instant instant) {
     world.SetClearance({.agent = a.IdOf(0, 1), .clear_until = instant});
-    EXPECT_EQ(a.agents().clearances().TakeChanged(0, 0), std::set<std::uint32_t>{0});
+    EXPECT_EQ(a.agents().clearances().TakeChanged(0, 0, {}), std::set<std::uint32_t>{0});
   };
   clear_until(At(4 * kSecond));
   world.MoveOn();
   world.UpdateGrants();
   EXPECT_EQ(a.time().granted(), At(4 * kSecond));
-  EXPECT_TRUE(a.agents().clearances().TakeChanged(0, 0).contains(0));
+  EXPECT_TRUE(a.agents().clearances().TakeChanged(0, 0, {}).contains(0));
   EXPECT_EQ(world.EffectiveFrom(At(1)), At(4 * kSecond));
 
   clear_until(At(0));
   world.UpdateGrants();
   EXPECT_EQ(a.time().granted(), At(4 * kSecond));
-  EXPECT_TRUE(a.agents().clearances().TakeChanged(0, 0).empty())
+  EXPECT_TRUE(a.agents().clearances().TakeChanged(0, 0, {}).empty())
       << "a grant that stays is not told again";
 
   a.time().Offer({.clock = At(4 * kSecond)});
@@ -335,6 +335,24 @@ TEST(World, AnEchoCountsIfItsSampleIsOnThePresentTimeScale) {
   }
   clock.set_sent_ns(-1);
   EXPECT_FALSE(world.RoundTripOf(clock, kService));
+}
+
+// Goal:   who was not heard because the service stood still has some time to be heard.
+TEST(World, ReleasesNobodyWhileItWakesUp) {
+  v1::Config config;
+  config.mutable_clock()->set_on_silent_simulator(v1::Clock::RELEASE);
+  config.mutable_clock()->set_release_after_s(5);
+  World world(CompleteConfig(config), {{.id = 1, .run = 1, .name = "alpha", .granted = {}}});
+  const auto released_at = [&world](std::int64_t ns) {
+    world.SetReading({ns, ns});
+    return world.ReleaseSilent();
+  };
+  EXPECT_TRUE(released_at(0).empty());
+  world.SetReading({9 * kWakingTime, 9 * kWakingTime});
+  world.WakeUp();
+  EXPECT_TRUE(world.ReleaseSilent().empty());
+  EXPECT_EQ(world.NextRelease(), 10 * kWakingTime);
+  EXPECT_EQ(released_at(10 * kWakingTime), std::vector<std::string>{"alpha"});
 }
 
 }  // namespace

@@ -134,6 +134,23 @@ TEST_F(SlicedOwnerQueuesTest, AnOwnerWhosePairsHaveWaitedSpendsASliceInOneStep) 
   EXPECT_EQ(Take(60, 4), (Slots{6, 7, 20, 21, 22, 23})) << "the other one has waited for nothing";
 }
 
+// Goal:   a pair that needs more than a slice is not cut short: it has a step of its owner's.
+TEST_F(SlicedOwnerQueuesTest, APairThatCostsMoreThanASliceHasAStepOfItsOwn) {
+  for (std::uint32_t slot = 0; slot < 20; ++slot) Add(slot, kMany, kMany);
+  Take(40);
+  const auto cost = [](PairSlot slot) { return slot.value() == 5 ? std::uint64_t{35} : 10; };
+  const auto take = [&] { return queues_.Take(40, cost, At(now_ += kStep)); };
+  const std::vector<PairTurn> before = take(), it = take(), after = take();
+  ASSERT_EQ(before.size(), 1u);
+  EXPECT_EQ(before[0].slot.value(), 4u);
+  ASSERT_EQ(it.size(), 1u);
+  EXPECT_EQ(it[0].slot.value(), 5u);
+  EXPECT_EQ(it[0].payer_units, 35u);
+  ASSERT_EQ(after.size(), 2u);
+  EXPECT_EQ(after[0].payer_units, 20u);
+  queues_.Validate();
+}
+
 // A slice of 20 of 40 in each Δt: one is due each half of it, and gives way for eight of them.
 TEST_F(SlicedOwnerQueuesTest, AnOwnerThatIsHeldGivesWayToTheOthers) {
   for (std::uint32_t slot = 0; slot < 20; ++slot) Add(slot, kMany, kMany);
