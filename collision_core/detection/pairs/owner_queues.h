@@ -38,8 +38,8 @@ struct PairTurn {
 /// An owner of which some pairs have waited since an earlier step is *held*. It spends no more than
 /// a slice in one step, or what one pair costs, and saves up no more than two slices. It also gives
 /// way: in a step with other work, news or another owner's pairs that want their turn, it has no
-/// turn, unless its last slice lies back by kGivesWay times the time in which it may have one. So it
-/// always gets at least that part of its share.
+/// turn, unless its last slice lies back by kGivesWay times the time in which it may have one. So
+/// it always gets at least that part of its share.
 ///
 /// Of the two owners of a pair the one with more tracked pairs pays, or the one with the lower id:
 /// a simulator that puts many agents in the way of another one's pays for all these pairs itself.
