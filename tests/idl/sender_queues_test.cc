@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 namespace collision::dds {
@@ -42,6 +43,29 @@ TEST(SenderQueues, KeepTheOrderOfASenderAndTheNewestOfAKey) {
   EXPECT_EQ(Taken(&queues), (std::vector<int>{3, 4, 5, 6, 7, 8}));
   EXPECT_TRUE(Taken(&queues).empty());
   EXPECT_EQ(queues.waiting_bytes(), 0u);
+}
+
+// Goal:   a clock that is written anew all the time comes to its turn behind many states, and then
+//         the newest one does.
+TEST(SenderQueues, TheOldestOfAKeyMayKeepItsPlace) {
+  for (const bool behind : {false, true}) {
+    Queues queues({});
+    const int before = behind ? static_cast<int>(kBehind) : 10;
+    SampleFacts clock = Of(1, 0, 100, 3);
+    clock.keeps_place = true;
+    for (int i = 1; i <= before; ++i) queues.Put(Of(1, static_cast<std::uint64_t>(i)), i, 0);
+    for (int i = 1; i <= 9; ++i) {
+      queues.Put(clock, -i, 0);
+      queues.Put(Of(1, static_cast<std::uint64_t>(before + i)), before + i, 0);
+    }
+    const std::vector<int> taken = Taken(&queues);
+    std::vector<int> clocks;
+    std::copy_if(taken.begin(), taken.end(), std::back_inserter(clocks),
+                 [](int i) { return i < 0; });
+    EXPECT_EQ(clocks, behind ? (std::vector<int>{-1, -9}) : (std::vector<int>{-1, -8, -9}));
+    EXPECT_EQ(taken[static_cast<std::size_t>(before)], -1) << "behind those before it";
+    EXPECT_EQ(queues.waiting_bytes(), 0u);
+  }
 }
 
 TEST(SenderQueues, ADisposalReplacesNoSampleAndIsReplacedByNone) {

@@ -120,6 +120,7 @@ void Inbox::Put(const History& history, const ddsi_writer_info& writer, ddsi_ser
   ddsi_serdata_get_keyhash(data, &key, false);
   std::copy(std::begin(key.value), std::end(key.value), facts.key.key.begin());
   facts.depth = facts.key.disposal ? 1 : history.depth;
+  facts.keeps_place = history.topic == static_cast<std::size_t>(TopicId::kSimulatorClock);
   facts.bytes = ddsi_serdata_size(data);
   dds_entity_t to_trigger = 0;
   {

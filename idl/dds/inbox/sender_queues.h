@@ -30,6 +30,9 @@ struct SampleFacts {
   std::uint64_t sender = 0;
   SampleKey key;
   std::size_t depth = 1;  ///< Newest samples of the key that are kept.
+  /// Of a key that is written all the time: the oldest that waits keeps its place, too, or none
+  /// would ever come to the front of a queue that is long.
+  bool keeps_place = false;
   std::size_t bytes = 0;
 };
 
@@ -229,11 +232,16 @@ class SenderQueues {
   }
 
   void Replace(const SampleFacts& facts, Queue* queue) {
-    const std::size_t depth = IsBehind(*queue) ? 1 : facts.depth;
+    const std::size_t least = facts.keeps_place ? 2 : 1;
+    const std::size_t depth = IsBehind(*queue) ? least : std::max(facts.depth, least);
     for (auto of_key = queue->keys.find(facts.key);
          of_key != queue->keys.end() && of_key->second.count >= depth;
          of_key = queue->keys.find(facts.key)) {
-      Erase(of_key->second.oldest, queue);
+      if (facts.keeps_place) {
+        EraseSecond(&of_key->second, queue);
+      } else {
+        Erase(of_key->second.oldest, queue);
+      }
     }
   }
 
@@ -286,6 +294,18 @@ class SenderQueues {
     of_key->second.oldest = sample->newer;
     if (--of_key->second.count == 0) queue->keys.erase(of_key);
     queue->order.erase(sample);
+  }
+
+  /// Requires that at least two wait.
+  void EraseSecond(OfKey* of_key, Queue* queue) {
+    const auto second = of_key->oldest->newer;
+    const std::size_t cost = second->bytes + kSampleOverhead;
+    queue->waiting_bytes -= cost;
+    waiting_bytes_ -= cost;
+    of_key->oldest->newer = second->newer;
+    if (of_key->newest == second) of_key->newest = of_key->oldest;
+    --of_key->count;
+    queue->order.erase(second);
   }
 
   void CountDropped(std::size_t samples, Queue* queue, std::int64_t now_ns) {
