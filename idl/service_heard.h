@@ -20,6 +20,7 @@ inline v1::ServiceHeard HeardOf(const v1::ServiceStatus& status) {
   heard.set_agents(status.agents());
   heard.set_configuration(status.configuration());
   heard.set_version(status.version());
+  heard.set_simulated_clock(status.simulated_clock());
   for (const v1::KeyValue& extension : status.extensions()) {
     if (extension.key() == wire::kProcessExtension) heard.set_process(extension.value());
     if (extension.key() == wire::kEndedRunsExtension) heard.set_ended_runs(extension.value());

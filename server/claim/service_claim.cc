@@ -155,6 +155,7 @@ bool ServiceClaim::TakesOver(std::int64_t now_ns) {
     vacant_ns_.reset();
     return false;
   }
+  if (!fits_) return false;
   if (!vacant_ns_) vacant_ns_ = now_ns;
   if (HasJustWoken(now_ns)) return false;
   woke_ns_.reset();

@@ -86,6 +86,9 @@ class ServiceClaim {
   /// by. Without one, a late service is only late.
   std::optional<std::int64_t> standstill_ns() const;
 
+  /// As a standby: whether simulators could go on with this service. It takes over only if so.
+  void SetFits(bool fits) { fits_ = fits; }
+
   /// What it publishes after so long a standstill within a step is to be held back; 0: nothing is.
   std::int64_t hold_after_ns() const {
     return phase_ == ClaimPhase::kServing ? standstill_ns().value_or(0) : 0;
@@ -159,6 +162,7 @@ class ServiceClaim {
   std::optional<std::int64_t> woke_ns_;
   std::optional<std::int64_t> stood_ns_;  ///< Until when it stood still, or a step took long.
   std::int64_t listens_since_ns_ = 0;     ///< Since then it has gone on so.
+  bool fits_ = true;
   bool followed_ = false;
   bool is_unheard_ = false;                ///< It has taken over, and does not speak yet.
   bool is_named_ = false;                  ///< Since then: by a simulator.

@@ -191,7 +191,7 @@ class Daemon::Implementation {
   }
 
   void HearService(const v1::ServiceHeard& heard) {
-    services_.Hear(heard, world_.monotonic_ns());
+    claim_.SetFits(services_.Hear(heard, world_.monotonic_ns()));
     if (heard.ended()) return claim_.HearEnd(heard.service_id());
     claim_.Hear(HeardOf(heard), world_.monotonic_ns());
     const bool is_lonely = heard.agents() > 0 && !heard.followed();  // its own cable may be out

@@ -13,31 +13,35 @@
 namespace collision::server {
 ServiceReport::ServiceReport(const v1::Config& complete, std::uint64_t service_id,
                              std::string process)
-    : configuration_(ConfigurationDigest(complete)),
+    : simulated_(complete.clock().kind() != v1::Clock::WALL),
+      configuration_(ConfigurationDigest(complete)),
       service_id_(service_id),
       process_(std::move(process)),
       lease_s_(complete.lease_s()) {}
 
-void ServiceReport::Hear(const v1::ServiceHeard& heard, std::int64_t now_ns) {
-  if (heard.service_id() == service_id_) return;
+bool ServiceReport::Hear(const v1::ServiceHeard& heard, std::int64_t now_ns) {
+  if (heard.service_id() == service_id_) return fits();
   const auto known = others_.find(heard.service_id());
   if (heard.ended()) {
-    if (known == others_.end()) return;
+    if (known == others_.end()) return fits();
     gone_.Add(NameOf(HeardOf(known->second)));
     others_.erase(known);
-    return;
+    return fits();
   }
   if (heard.phase() == v1::PHASE_SERVING) {
     served_ = heard;
     served_ns_ = now_ns;
   }
-  if (known == others_.end() && others_.size() == kOthersMax) return;
+  if (known == others_.end() && others_.size() == kOthersMax) return fits();
   const v1::ServiceHeard before = std::exchange(others_[heard.service_id()], heard);
-  if (heard.phase() == v1::PHASE_CLAIMING || before.phase() == heard.phase()) return;
+  if (heard.phase() == v1::PHASE_CLAIMING || before.phase() == heard.phase()) return fits();
   (heard.phase() == v1::PHASE_SERVING ? serving_ : standbys_).Add(NameOf(HeardOf(heard)));
-  if (heard.configuration() != 0 && heard.configuration() != configuration_) {
+  if (heard.phase() == v1::PHASE_SERVING && !fits()) {
+    misfits_.Add(NameOf(HeardOf(heard)));
+  } else if (heard.configuration() != 0 && heard.configuration() != configuration_) {
     configured_otherwise_.Add(NameOf(HeardOf(heard)));
   }
+  return fits();
 }
 
 bool ServiceReport::HearProgress(const v1::ServiceHeard& heard, std::size_t agents,
@@ -51,7 +55,8 @@ void ServiceReport::Write(const std::vector<std::string>& conflicts, std::int64_
   for (const std::string& conflict : conflicts) {
     Log(spdlog::level::warn, "two services in one world", conflict);
   }
-  for (NamesLog* log : {&gone_, &standbys_, &serving_, &configured_otherwise_}) log->Write(now_ns);
+  for (NamesLog* log : {&gone_, &standbys_, &serving_, &misfits_, &configured_otherwise_})
+    log->Write(now_ns);
 }
 
 void ServiceReport::LogTakeOver(std::int64_t now_ns) const {
@@ -77,7 +82,9 @@ bool ServiceReport::MayBegin(std::optional<std::size_t> agents, std::int64_t now
 void ServiceReport::AddExtensions(bool stands_by, std::vector<v1::KeyValue>* extensions) const {
   AddText(std::string(wire::kProcessExtension), process_, extensions);
   AddText("lease_s", fmt::format("{}", lease_s_), extensions);
-  if (stands_by) AddText("standby", readiness_.ready() ? "ready" : "not ready yet", extensions);
+  if (!stands_by) return;
+  const char* const ready = readiness_.ready() ? "ready" : "not ready yet";
+  AddText("standby", fits() ? ready : "never: the clocks are of two kinds", extensions);
 }
 
 }  // namespace collision::server

@@ -24,11 +24,11 @@ inline constexpr std::int64_t kAwaitOthersNs = 5'000'000'000;
 /// may begin here. Times are nanoseconds of the monotonic clock. One thread.
 class ServiceReport {
  public:
-  /// `process`: ProcessText() of this service; empty: not known.
+  /// `complete`: the configuration of this service. `process`: its ProcessText(); empty: not known.
   ServiceReport(const v1::Config& complete, std::uint64_t service_id, std::string process);
 
-  /// A status of a service, or its end.
-  void Hear(const v1::ServiceHeard& heard, std::int64_t now_ns);
+  /// A status of a service, or its end. Returns fits().
+  bool Hear(const v1::ServiceHeard& heard, std::int64_t now_ns);
 
   /// This one stands by beside the service whose status that is (StandbyReadiness::Hear()). True:
   /// it is ready to take over from now on, which is logged.
@@ -50,6 +50,12 @@ class ServiceReport {
   /// simulators since kAwaitOthersNs.
   bool MayBegin(std::optional<std::size_t> agents, std::int64_t now_ns);
 
+  /// Whether the service that serves, or served, has the kind of clock that this one has. From one
+  /// that has the other kind no simulator could go on to this one.
+  bool fits() const {
+    return !served_.has_simulated_clock() || served_.simulated_clock() == simulated_;
+  }
+
   /// ConfigurationDigest() of this service.
   std::uint64_t configuration() const { return configuration_; }
 
@@ -57,6 +63,7 @@ class ServiceReport {
   void AddExtensions(bool stands_by, std::vector<v1::KeyValue>* extensions) const;
 
  private:
+  const bool simulated_;
   const std::uint64_t configuration_;
   const std::uint64_t service_id_;
   const std::string process_;
@@ -69,6 +76,7 @@ class ServiceReport {
   NamesLog standbys_{"{} has become a standby in this world", spdlog::level::info};
   NamesLog serving_{"{} serves this world", spdlog::level::info};
   NamesLog gone_{"{} is gone: it has ended, or was not heard for its lease", spdlog::level::info};
+  NamesLog misfits_{"{} has the other kind of clock: this one does not take over from it"};
   NamesLog configured_otherwise_{
       "{} is configured otherwise: results change when one takes over from the other; compare "
       "collisiond --print-config of both"};

@@ -214,6 +214,16 @@ TEST(ServiceClaim, OneWhoseEveryStepTakesLongTakesOverAndServes) {
   EXPECT_EQ(serving.phase(), ClaimPhase::kWaking) << "that was no step";
 }
 
+TEST(ServiceClaim, AStandbyThatDoesNotFitNeverTakesOver) {
+  ServiceClaim claim = StandingBy(5);
+  claim.SetFits(false);
+  claim.HearEnd(1);
+  claim.Update(9 * kSecond);
+  claim.Update(99 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kStandby);
+  EXPECT_EQ(claim.NextDue(), std::nullopt);
+}
+
 TEST(ServiceClaim, NobodyWaitsForOneThatIsOnlyStarting) {
   ServiceClaim claim = StandingBy(5);
   claim.Hear({.instance = 2, .sequence = 1}, 9 * kSecond);

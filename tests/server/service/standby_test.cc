@@ -389,6 +389,26 @@ TEST_F(OneBesideAnotherTest, AFloodOfOneTakesAnEighthOfWhatIsKept) {
   EXPECT_EQ(daemon_.counter("states_received"), taken) << "kept until its round";
 }
 
+// Goal:   simulators of the one kind of clock cannot go on with a service of the other one.
+TEST(StandbyOnTheWallClock, NeverTakesOverFromASimulatedClock) {
+  v1::Config config;
+  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  DaemonParts parts;
+  parts.claim = {.instance = 2, .stands_by = true, .waking_ns = 10 * kSecond};
+  ScriptedDaemon daemon(config, std::move(parts));
+  v1::Input heard;
+  heard.mutable_service_heard()->set_service_id(1);
+  heard.mutable_service_heard()->set_term(1);
+  heard.mutable_service_heard()->set_phase(v1::PHASE_SERVING);
+  heard.mutable_service_heard()->set_simulated_clock(true);
+  daemon.Step({heard});
+  EXPECT_EQ(Extension(daemon.status(), "standby"), "never: the clocks are of two kinds");
+  heard.mutable_service_heard()->set_ended(true);
+  daemon.Step({heard}, 0.01);
+  daemon.Pass(5);
+  EXPECT_EQ(daemon.status().phase(), v1::PHASE_STANDBY);
+}
+
 // Goal:   a standby ends nobody's run because only its own network does not hear it.
 TEST(StandbyOnTheWallClock, RemovesNobodyByItsOwnView) {
   v1::Config config;
