@@ -139,9 +139,10 @@ bool ServiceClaim::Yields(std::int64_t now_ns) {
   return false;
 }
 
-/// Of two that stand by, whether the other one is to take over.
+/// Of two that stand by, whether the other one is to take over. One that is starting leaves the
+/// world to a standby (GoesFirst()), unless that one stands by for it.
 bool ServiceClaim::WaitsFor(const Other& other) const {
-  if (other.newest.phase != OtherPhase::kStandby) return false;
+  if (other.newest.phase == OtherPhase::kClaiming && standby_term_ != kUnknownTerm) return false;
   return std::pair(other.newest.term, other.newest.instance) <
          std::pair(standby_term_, options_.instance);
 }

@@ -221,12 +221,19 @@ TEST(ServiceClaim, AStandbyThatDoesNotFitNeverTakesOver) {
   EXPECT_EQ(claim.NextDue(), std::nullopt);
 }
 
-TEST(ServiceClaim, NobodyWaitsForOneThatIsOnlyStarting) {
+TEST(ServiceClaim, AStandbyWaitsForOneThatIsStartingOnlyIfItStandsByForThatOne) {
   ServiceClaim claim = StandingBy(5);
   claim.Hear({.instance = 2, .sequence = 1}, 9 * kSecond);
   claim.HearEnd(1);
   claim.Update(9 * kSecond);
   EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
+  ServiceClaim starting(Standby(5));
+  starting.Update(0);
+  starting.Hear({.instance = 2, .sequence = 1}, 1);
+  for (const std::int64_t now_ns : {kSecond / 2, kSecond}) {
+    starting.Update(now_ns);
+    EXPECT_EQ(starting.phase(), ClaimPhase::kStandby) << "that one is about to serve";
+  }
 }
 
 TEST(ServiceClaim, AServiceThatListensDoesNotBeginToSpeak) {
