@@ -127,6 +127,12 @@ std::uint64_t DrawInstance(bool without_journal) {
   return without_journal ? drawn | kHighest : std::max<std::uint64_t>(drawn, 1);
 }
 
+/// One that has just left the world to another service waits for that one at least as long as a
+/// service is heard: the network may have lost its first word.
+std::int64_t ClaimWait(const v1::Config& config, bool again) {
+  return std::max(ToNanoseconds(config.claim_wait_s()), again ? wire::kServiceLease : 0);
+}
+
 /// `again`: it has left the world to another service, and is to stand by for that one.
 std::optional<int> ServeOnce(const v1::Config& config, const std::string& record_file, bool again) {
   std::shared_ptr<TreeCache> cache;
@@ -158,7 +164,7 @@ std::optional<int> ServeOnce(const v1::Config& config, const std::string& record
   const std::unique_ptr<Quarantine> quarantine = OpenQuarantine(config, journal.get());
   ClaimOptions claim = {.instance = DrawInstance(opens_later),
                         .term_before = journal ? journal->term() : 0,
-                        .wait_ns = ToNanoseconds(config.claim_wait_s()),
+                        .wait_ns = ClaimWait(config, again),
                         .heard_for_ns = wire::kServiceLease,
                         .stands_by = stands_by,
                         .waking_ns = ToNanoseconds(config.lease_s())};
