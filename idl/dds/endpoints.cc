@@ -101,10 +101,12 @@ class Builder {
   void Read(const TopicRow& row, dds_entity_t subscriber, Qos qos, const dds_listener_t* listener,
             Inbox* inbox) {
     const dds_entity_t topic = Topic(row);
+    const bool keeps_place = row.id == TopicId::kSimulatorClock;  // they are written all the time
     const dds_entity_t reader =
-        inbox == nullptr ? dds_create_reader(subscriber, topic, qos.get(), listener)
-                         : dds_create_reader_rhc(subscriber, topic, qos.get(), listener,
-                                                 inbox->MakeHistory(Index(row), Depth(row)));
+        inbox == nullptr
+            ? dds_create_reader(subscriber, topic, qos.get(), listener)
+            : dds_create_reader_rhc(subscriber, topic, qos.get(), listener,
+                                    inbox->MakeHistory(Index(row), Depth(row), keeps_place));
     endpoints_.readers[Index(row)] = Check(reader, std::string("DDS reader of ") + row.name);
   }
 

@@ -40,6 +40,7 @@ struct Inbox::History {
   dds_rhc base{};
   std::size_t topic = 0;
   std::size_t depth = 0;
+  bool keeps_place = false;
   /// Set last: whichever thread of DDS reads it sees all that is above, and the inbox as it was.
   std::atomic<Inbox*> inbox = nullptr;
 
@@ -98,11 +99,12 @@ const dds_rhc_ops Inbox::kOperations = {
       return DDS_RETCODE_OK;
     }};
 
-dds_rhc* Inbox::MakeHistory(std::size_t topic, std::size_t depth) {
+dds_rhc* Inbox::MakeHistory(std::size_t topic, std::size_t depth, bool keeps_place) {
   auto history = std::make_unique<History>();
   history->base.common.ops = &kOperations;
   history->topic = topic;
   history->depth = depth;
+  history->keeps_place = keeps_place;
   history->inbox = this;
   return &history.release()->base;
 }
@@ -120,7 +122,7 @@ void Inbox::Put(const History& history, const ddsi_writer_info& writer, ddsi_ser
   ddsi_serdata_get_keyhash(data, &key, false);
   std::copy(std::begin(key.value), std::end(key.value), facts.key.key.begin());
   facts.depth = facts.key.disposal ? 1 : history.depth;
-  facts.keeps_place = history.topic == static_cast<std::size_t>(TopicId::kSimulatorClock);
+  facts.keeps_place = history.keeps_place;
   facts.bytes = ddsi_serdata_size(data);
   dds_entity_t to_trigger = 0;
   {

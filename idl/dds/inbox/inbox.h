@@ -63,8 +63,8 @@ class Inbox {
   void SetGuard(dds_entity_t guard) { guard_ = guard; }
 
   /// For dds_create_reader_rhc(), which takes it over. `depth`: newest samples of a key that are
-  /// kept; `topic` comes back with each sample.
-  dds_rhc* MakeHistory(std::size_t topic, std::size_t depth);
+  /// kept; `topic` comes back with each sample; `keeps_place`: as in SampleFacts.
+  dds_rhc* MakeHistory(std::size_t topic, std::size_t depth, bool keeps_place);
 
   /// As SenderQueues::Take(), with no more bytes than SenderQueues::AtOnce().
   std::vector<ArrivedSample> Take(std::size_t samples, std::size_t bytes);

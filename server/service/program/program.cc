@@ -127,10 +127,21 @@ std::uint64_t DrawInstance(bool without_journal) {
   return without_journal ? drawn | kHighest : std::max<std::uint64_t>(drawn, 1);
 }
 
-/// One that has just left the world to another service waits for that one at least as long as a
-/// service is heard: the network may have lost its first word.
-std::int64_t ClaimWait(const v1::Config& config, bool again) {
-  return std::max(ToNanoseconds(config.claim_wait_s()), again ? wire::kServiceLease : 0);
+/// `journal`: null if there is none, or (`opens_later`) not yet. `again`: it has left the world to
+/// another service, and waits for that one at least as long as a service is heard: the network may
+/// have lost its first word.
+ClaimOptions ClaimOf(const v1::Config& config, const Journal* journal, bool opens_later,
+                     bool again) {
+  const std::int64_t least_wait = again ? wire::kServiceLease : 0;
+  ClaimOptions claim = {.instance = DrawInstance(opens_later),
+                        .term_before = journal != nullptr ? journal->term() : 0,
+                        .wait_ns = std::max(ToNanoseconds(config.claim_wait_s()), least_wait),
+                        .heard_for_ns = wire::kServiceLease,
+                        .stands_by = config.on_occupied() == v1::Config::STAND_BY,
+                        .waking_ns = ToNanoseconds(config.lease_s())};
+  if (journal == nullptr) return claim;
+  for (const auto& [id, simulator] : journal->simulators()) claim.roster.push_back(simulator);
+  return claim;
 }
 
 /// `again`: it has left the world to another service, and is to stand by for that one.
@@ -162,15 +173,7 @@ std::optional<int> ServeOnce(const v1::Config& config, const std::string& record
   }
   if (opens_later) open_journal = [&] { return (journal = ReadJournal(config)).get(); };
   const std::unique_ptr<Quarantine> quarantine = OpenQuarantine(config, journal.get());
-  ClaimOptions claim = {.instance = DrawInstance(opens_later),
-                        .term_before = journal ? journal->term() : 0,
-                        .wait_ns = ClaimWait(config, again),
-                        .heard_for_ns = wire::kServiceLease,
-                        .stands_by = stands_by,
-                        .waking_ns = ToNanoseconds(config.lease_s())};
-  if (journal) {
-    for (const auto& [id, simulator] : journal->simulators()) claim.roster.push_back(simulator);
-  }
+  const ClaimOptions claim = ClaimOf(config, journal.get(), opens_later, again);
   std::unique_ptr<RecordingWriter> recorder;
   try {
     if (!record_file.empty()) {
