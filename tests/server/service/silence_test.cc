@@ -241,6 +241,19 @@ TEST(SilenceOnTheWallClock, TheDeadAreRemovedAfterTheConfiguredTimeAndTheirPlace
   EXPECT_EQ(daemon.rejections().back().reason(), v1::REJECTED_OLD_RUN);
 }
 
+TEST(SilenceOnTheWallClock, AServiceThatStoodStillRemovesNobodyBeforeItHasListened) {
+  ScriptedDaemon daemon(Wall(30));
+  daemon.Step(Joins(&daemon, "alpha", 1), 1);
+  daemon.Step(Joins(&daemon, "beta", 2), 0.001);
+  daemon.Step({Liveliness(2, "beta", false)}, 1);
+  daemon.Step({}, 40);
+  daemon.Step(Joins(&daemon, "gamma", 3), 0.01);
+  EXPECT_EQ(daemon.rejections().size(), 1u) << "beta has its place still";
+  daemon.Step({}, 1);
+  daemon.Step(Joins(&daemon, "gamma", 3), 0.01);
+  EXPECT_EQ(daemon.rejections().size(), 1u);
+}
+
 TEST(SilenceOnTheWallClock, TheLivingStayAndSoDoTheDeadWithoutALimit) {
   ScriptedDaemon daemon(Wall(0));
   daemon.Step(Joins(&daemon, "alpha", 1), 1);

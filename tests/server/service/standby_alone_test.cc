@@ -14,6 +14,28 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
+v1::Config Wall() {
+  v1::Config config;
+  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_remove_silent_after_s(30);
+  return config;
+}
+
+DaemonParts Standby() {
+  DaemonParts parts;
+  parts.claim = {.instance = 2, .stands_by = true, .waking_ns = 10 * kSecond};
+  return parts;
+}
+
+/// The status of another service, which serves.
+v1::Input Serving() {
+  v1::Input heard;
+  heard.mutable_service_heard()->set_service_id(1);
+  heard.mutable_service_heard()->set_term(1);
+  heard.mutable_service_heard()->set_phase(v1::PHASE_SERVING);
+  return heard;
+}
+
 // Goal:   the journal is opened, and has the term, though nobody is there to follow.
 TEST(StandbyOfAQuietWorld, OpensTheJournalOnceTheOtherServiceHasLetGo) {
   const std::string folder = testing::TempDir() + "standby_of_a_quiet_world";
@@ -25,10 +47,7 @@ TEST(StandbyOfAQuietWorld, OpensTheJournalOnceTheOtherServiceHasLetGo) {
     return (own = std::make_unique<Journal>(folder, "default", 0, 16)).get();
   };
   ScriptedDaemon daemon(VoyageConfig(), std::move(parts));
-  v1::Input heard;
-  heard.mutable_service_heard()->set_service_id(1);
-  heard.mutable_service_heard()->set_term(1);
-  heard.mutable_service_heard()->set_phase(v1::PHASE_SERVING);
+  v1::Input heard = Serving();
   daemon.Step({heard});
   heard.mutable_service_heard()->set_ended(true);
   daemon.Step({heard}, 0.01);
@@ -43,15 +62,8 @@ TEST(StandbyOfAQuietWorld, OpensTheJournalOnceTheOtherServiceHasLetGo) {
 
 // Goal:   simulators of the one kind of clock cannot go on with a service of the other one.
 TEST(StandbyOnTheWallClock, NeverTakesOverFromASimulatedClock) {
-  v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::WALL);
-  DaemonParts parts;
-  parts.claim = {.instance = 2, .stands_by = true, .waking_ns = 10 * kSecond};
-  ScriptedDaemon daemon(config, std::move(parts));
-  v1::Input heard;
-  heard.mutable_service_heard()->set_service_id(1);
-  heard.mutable_service_heard()->set_term(1);
-  heard.mutable_service_heard()->set_phase(v1::PHASE_SERVING);
+  ScriptedDaemon daemon(Wall(), Standby());
+  v1::Input heard = Serving();
   heard.mutable_service_heard()->set_simulated_clock(true);
   daemon.Step({heard});
   EXPECT_EQ(Extension(daemon.status(), "standby"), "never: the clocks are of two kinds");
@@ -63,16 +75,8 @@ TEST(StandbyOnTheWallClock, NeverTakesOverFromASimulatedClock) {
 
 // Goal:   a standby ends nobody's run because only its own network does not hear it.
 TEST(StandbyOnTheWallClock, RemovesNobodyByItsOwnView) {
-  v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::WALL);
-  config.mutable_clock()->set_remove_silent_after_s(30);
-  DaemonParts parts;
-  parts.claim = {.instance = 2, .stands_by = true, .waking_ns = 10 * kSecond};
-  ScriptedDaemon daemon(config, std::move(parts));
-  v1::Input heard;
-  heard.mutable_service_heard()->set_service_id(1);
-  heard.mutable_service_heard()->set_term(1);
-  heard.mutable_service_heard()->set_phase(v1::PHASE_SERVING);
+  ScriptedDaemon daemon(Wall(), Standby());
+  v1::Input heard = Serving();
   daemon.Step({heard});
   daemon.Step(
       {From(1, Description("alpha", 0)), From(1, State(0, daemon.bus().wall_ns, 1), "alpha")},
