@@ -207,7 +207,7 @@ TEST(ServiceClaim, OneWhoseEveryStepTakesLongTakesOverAndServes) {
     EXPECT_GE(ns, kSecond) << "it listens first";
     EXPECT_LE(ns, 3 * kSecond);
   }
-  serving.WakeUp(2 * kSecond, now_ns + 2 * kSecond);
+  serving.WakeUp(2 * kSecond, now_ns - kLong + 2 * kSecond);
   EXPECT_EQ(serving.phase(), ClaimPhase::kWaking) << "that was no step";
 }
 

@@ -101,6 +101,15 @@ TEST_F(CollisionctlTest, DataOfAFormerAgentOrRunIsNotShown) {
   EXPECT_FALSE(view_.Agents()[0].state);
 }
 
+TEST_F(CollisionctlTest, WhatTheServiceRefusesFillsNothing) {
+  Describe("last", 1, 65535);
+  Describe("beyond", 1, 65536);
+  Poll(2);
+  const std::vector<AgentView> agents = view_.Agents();
+  ASSERT_EQ(agents.size(), 1u);
+  EXPECT_EQ(agents[0].description.agent_name(), "last");
+}
+
 TEST_F(CollisionctlTest, RemovedAgentsGoAndTheirNamesStay) {
   Describe("ball", 7, 0);
   next_.inputs.emplace_back().mutable_agent_removal()->set_simulator_id(5);

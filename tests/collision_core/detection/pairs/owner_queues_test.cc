@@ -139,7 +139,7 @@ TEST_F(SlicedOwnerQueuesTest, APairThatCostsMoreThanASliceHasAStepOfItsOwn) {
   for (std::uint32_t slot = 0; slot < 20; ++slot) Add(slot, kMany, kMany);
   Take(40);
   const auto cost = [](PairSlot slot) { return slot.value() == 5 ? std::uint64_t{35} : 10; };
-  const auto take = [&] { return queues_.Take(40, cost, At(now_ += kStep)); };
+  const auto take = [&] { return queues_.Take(400, cost, At(now_ += kStep)); };
   const std::vector<PairTurn> before = take(), it = take(), after = take();
   ASSERT_EQ(before.size(), 1u);
   EXPECT_EQ(before[0].slot.value(), 4u);
