@@ -80,6 +80,7 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
         fmt::format("simulator {} \"{}\": run {} follows run {}, whose {} agents are removed",
                     IdText(claim.simulator->id()), claim.simulator->name(), where.run,
                     claim.simulator->run(), claim.simulator->agents().size()));
+    world_.AwaitRun(*claim.simulator, where.run);
     agents_.RemoveAll(claim.simulator);
     shapes_.Release(claim.simulator->id());
     claim.simulator->StartRun(input.sender(), where.run);

@@ -42,6 +42,9 @@ class SilenceReport {
   NamesLog not_following_{
       "world time waits for simulator {}: it is there, but has not heard this service yet, which "
       "has just begun to serve; there is nothing to do unless this lasts"};
+  NamesLog without_clock_{
+      "world time waits for simulator {}: it has started again, and has told no clock yet; let it "
+      "go on, or evict it with collisionctl evict"};
   NamesLog missing_{
       "world time waits for simulator {}: the service before this one served it, and it is not "
       "back yet; start it again, or evict it with collisionctl evict"};

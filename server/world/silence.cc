@@ -21,8 +21,23 @@ Silence::Silence(const v1::Config& config, const std::vector<JournalledSimulator
       releases_(config.clock().on_silent_simulator() == v1::Clock::RELEASE),
       release_after_ns_(Nanoseconds(config.clock().release_after_s())),
       remove_after_ns_(Nanoseconds(config.clock().remove_silent_after_s())),
-      progress_(Nanoseconds(config.clock().waiting_after_s())),
+      named_after_ns_(Nanoseconds(config.clock().waiting_after_s())),
+      progress_(named_after_ns_),
       roster_(simulated_ ? roster : std::vector<JournalledSimulator>{}) {}
+
+void Silence::AwaitRoster(const std::vector<JournalledSimulator>& roster, std::int64_t now_ns) {
+  const std::map<std::uint64_t, Missing> awaited = roster_.entries();
+  roster_ = Roster({});
+  for (const auto& [id, missing] : awaited) roster_.Await(id, missing);
+  for (const JournalledSimulator& one : roster) {
+    roster_.Await(one.id, {.run = one.run, .name = one.name, .since_ns = now_ns});
+  }
+}
+
+void Silence::AwaitRun(const Simulator& simulator, std::uint32_t run, std::int64_t now_ns) {
+  roster_.Await(simulator.id(),
+                {.run = run, .name = simulator.name(), .since_ns = now_ns, .started_again = true});
+}
 
 void Silence::Update(const Simulators& simulators, std::int64_t now_ns) {
   if (!begun_ns_) begun_ns_ = now_ns;
@@ -61,19 +76,27 @@ std::optional<std::int64_t> Silence::ReleaseDue(const Simulator& simulator) cons
 std::optional<std::int64_t> Silence::RemovalDue(const Simulator& simulator) const {
   if (remove_after_ns_ == 0 || simulator.has_left()) return std::nullopt;
   if (simulated_ && simulator.holds_time()) return std::nullopt;
+  if (roster_.IsMissing(simulator.id())) return std::nullopt;
   if (simulator.released()) return simulator.released_since_ns() + remove_after_ns_;
   if (simulator.alive()) return std::nullopt;
   return simulator.silent_since_ns() + remove_after_ns_;
 }
 
-std::optional<std::int64_t> Silence::RosterDue() const {
-  if (roster_.complete() || !releases_ || !begun_ns_) return std::nullopt;
-  return *begun_ns_ + release_after_ns_;
+std::optional<std::int64_t> Silence::ReleaseDue(const Missing& missing) const {
+  const std::optional<std::int64_t> since_ns = missing.since_ns ? missing.since_ns : begun_ns_;
+  if (!releases_ || !since_ns) return std::nullopt;
+  return *since_ns + release_after_ns_;
+}
+
+bool Silence::IsNamed(const Missing& missing, std::int64_t now_ns) const {
+  return !missing.started_again || now_ns - missing.since_ns.value_or(now_ns) >= named_after_ns_;
 }
 
 std::vector<std::string> Silence::Release(Simulators* simulators, std::int64_t now_ns) {
   std::vector<std::string> released;
-  if (const auto due = RosterDue(); due && *due <= now_ns) released = roster_.GiveUpAll();
+  if (releases_ && begun_ns_) {
+    released = roster_.GiveUpSince(now_ns - release_after_ns_, *begun_ns_);
+  }
   for (auto& [id, simulator] : *simulators) {
     const auto due = ReleaseDue(simulator);
     if (!due || *due > now_ns) continue;
@@ -110,7 +133,13 @@ std::vector<Awaited> Silence::Waited(const Simulators& simulators, std::int64_t 
       continue;  // kEnded says so
     }
     const bool lives = there != simulators.end() && there->second.alive();
-    waited.push_back({entry.name, lives ? WaitReason::kDoesNotFollowYet : WaitReason::kMissing});
+    if (!entry.started_again) {
+      waited.push_back({entry.name, lives ? WaitReason::kDoesNotFollowYet : WaitReason::kMissing});
+    } else if (!lives) {
+      waited.push_back({entry.name, WaitReason::kEnded});
+    } else if (IsNamed(entry, now_ns)) {
+      waited.push_back({entry.name, WaitReason::kHasNoClock});
+    }
   }
   std::sort(waited.begin(), waited.end());
   return waited;
@@ -118,8 +147,11 @@ std::vector<Awaited> Silence::Waited(const Simulators& simulators, std::int64_t 
 
 std::optional<std::int64_t> Silence::NextDue(const Simulators& simulators, bool removes,
                                              std::int64_t now_ns) const {
-  std::optional<std::int64_t> next = RosterDue();
-  TakeEarlier(progress_.NextDue(now_ns), &next);
+  std::optional<std::int64_t> next = progress_.NextDue(now_ns);
+  for (const auto& [id, missing] : roster_.entries()) {
+    TakeEarlier(ReleaseDue(missing), &next);
+    if (!IsNamed(missing, now_ns)) TakeEarlier(*missing.since_ns + named_after_ns_, &next);
+  }
   for (const auto& [id, simulator] : simulators) {
     TakeEarlier(ReleaseDue(simulator), &next);
     if (removes) TakeEarlier(RemovalDue(simulator), &next);

@@ -100,6 +100,12 @@ Claim World::ClaimForNew(std::uint64_t id, std::uint64_t sender, std::uint32_t r
   return claim;
 }
 
+void World::AwaitRun(const Simulator& simulator, std::uint32_t run) {
+  if (!simulated_ || !started_ || !simulator.holds_time()) return;
+  if (simulator.time().has_finished()) return;
+  silence_.AwaitRun(simulator, run, monotonic_ns());
+}
+
 void World::UpdateQuotas() {
   for (const auto& [id, simulator] : simulators_) {
     if (!simulator.has_left()) quotas_.Enter(id, simulator.name());
@@ -228,11 +234,12 @@ std::optional<std::int64_t> World::NextRelease() const {
 
 void World::EndRun(Simulator* simulator, EndCause cause) {
   ended_runs_.Add(simulator->id(), simulator->run(), cause);
+  silence_.roster().GiveUp(simulator->name());
   simulator->End();
 }
 
 bool World::EpochIsOver() const {
-  return simulated_ && started_ &&
+  return simulated_ && started_ && !silence_.roster().AwaitsNewRun() &&
          std::none_of(simulators_.begin(), simulators_.end(), [](const auto& one) {
            const bool succeeded = !one.second.alive() && !one.second.contenders().empty();
            return one.second.holds_time() && !succeeded;

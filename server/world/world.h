@@ -74,6 +74,10 @@ class World {
   Claim ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                  const std::string* name);
 
+  /// Before a run of the simulator follows the one in force, whose agents are still there. If that
+  /// one holds time, the world waits for the new run's first clock.
+  void AwaitRun(const Simulator& simulator, std::uint32_t run);
+
   /// Null: unknown.
   Simulator* Find(std::uint64_t id);
 

@@ -327,6 +327,25 @@ TEST_F(OneBesideAnotherTest, AClockBeyondAnyGrantAfterTheTakeOverHoldsNoOther) {
   EXPECT_EQ(daemon_.status().now_ns(), kSteps * kTenth);
 }
 
+// Goal:   one that held time and started again while the other service was in force is waited for
+//         by this one, too, unless an operator had evicted it there.
+TEST_F(OneBesideAnotherTest, WhoStartedAgainWithoutAClockIsWaitedForAfterTheTakeOver) {
+  daemon_.Step({other_.End()}, 0.01);
+  daemon_.Step({From(12, Description("beta", 0, 2))}, 0.01);
+  EndOther();
+  for (int step = 0; step <= kSteps; ++step) daemon_.Step(honest_.ToldTo(2, step), 0.01);
+  EXPECT_EQ(daemon_.status().now_ns(), 0);
+}
+
+TEST_F(OneBesideAnotherTest, WhoStartedAgainAndWasEvictedThereIsNotWaitedFor) {
+  daemon_.Step({other_.End()}, 0.01);
+  daemon_.Step({From(12, Description("beta", 0, 2))}, 0.01);
+  HearOther({.granted_until_ns = kTenth, .ended_runs = IdText(SimulatorId("beta")) + ":2:evicted"});
+  EndOther();
+  for (int step = 0; step <= kSteps; ++step) daemon_.Step(honest_.ToldTo(2, step), 0.01);
+  EXPECT_GT(daemon_.status().now_ns(), kTenth);
+}
+
 // Goal:   an agent that one simulator removes before the others have come so far has met whom it
 //         has met.
 TEST_F(OneBesideAnotherTest, WhatOneRemovesAheadOfTheOthersIsThereUntilThen) {
