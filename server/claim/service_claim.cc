@@ -91,7 +91,15 @@ std::optional<std::int64_t> ServiceClaim::standstill_ns() const {
   return options_.waking_ns / 2;
 }
 
+/// A step waits for as long as the claim; beyond, what came meanwhile has not been taken in yet.
+void ServiceClaim::ListenAnew(std::int64_t gap_ns, std::int64_t now_ns) {
+  if (gap_ns <= 2 * options_.wait_ns || listened_anew_ == kListensAnewMax) return;
+  ++listened_anew_;
+  since_ns_ = now_ns;
+}
+
 void ServiceClaim::WakeUp(std::int64_t gap_ns, std::int64_t now_ns) {
+  if (phase_ == ClaimPhase::kClaiming) return ListenAnew(gap_ns, now_ns);
   const std::optional<std::int64_t> standstill = standstill_ns();
   if (!standstill || gap_ns <= *standstill) return;
   if (phase_ == ClaimPhase::kStandby && gap_ns > kStaleAfterNs) {

@@ -61,8 +61,9 @@ struct ClaimOptions {
 /// the lowest term, of these the one with the lowest instance; the others do if it has not within
 /// heard_for_ns. A service that stood still for standstill_ns() may have been replaced meanwhile:
 /// WakeUp() keeps it from publishing anything before it has listened, and it then yields to one
-/// that it hears once. A standby that stood still has heard nothing of the one that serves:
-/// WakeUp() keeps it from taking over before it has listened; after kStaleAfterNs it yields.
+/// that it hears once. One that stood still while it claimed listens anew. A standby that stood
+/// still has heard nothing of the one that serves: WakeUp() keeps it from taking over before it has
+/// listened; after kStaleAfterNs it yields.
 ///
 /// Pure bookkeeping: it reads no clock; times are nanoseconds of the monotonic one. One
 /// thread.
@@ -148,6 +149,7 @@ class ServiceClaim {
 
   bool GoesFirst(const HeardService& other) const;
   bool Yields(std::int64_t now_ns);
+  void ListenAnew(std::int64_t gap_ns, std::int64_t now_ns);
   std::int64_t StandbyListens() const;
   bool HasJustWoken(std::int64_t now_ns) const;
   bool TakesOver(std::int64_t now_ns);
@@ -158,6 +160,7 @@ class ServiceClaim {
   const ClaimOptions options_;
   ClaimPhase phase_ = ClaimPhase::kClaiming;
   std::optional<std::int64_t> since_ns_;      ///< Of the claim, or of the waking.
+  int listened_anew_ = 0;                     ///< Times, while it claimed.
   std::optional<std::int64_t> contended_ns_;  ///< Serving: when it last was, though that one ended.
   std::optional<std::int64_t> woke_ns_;
   std::optional<std::int64_t> stood_ns_;  ///< Until when it stood still, or a step took long.
@@ -173,6 +176,9 @@ class ServiceClaim {
   std::string why_;
   std::map<std::uint64_t, Other> others_;  ///< By instance; at most kOthersMax.
 };
+
+/// A claimant whose every step takes so long serves all the same.
+inline constexpr int kListensAnewMax = 3;
 
 /// So long after another service was heard, what this one says may still be overwritten by what
 /// that one wrote: longer than a message is on its way on any network.

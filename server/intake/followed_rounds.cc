@@ -72,7 +72,8 @@ void FollowedRounds::Apply(const v1::Input& input) {
 Simulator* FollowedRounds::FindFollower(const v1::Input& input) {
   Simulator* const simulator = world_.Find(SimulatorOf(input));
   const bool follows = simulator != nullptr && simulator->sender() == input.sender() &&
-                       simulator->holds_time() && simulator->time().lock_step();
+                       simulator->holds_time() && simulator->time().clock() &&
+                       simulator->time().lock_step();
   return follows ? simulator : nullptr;
 }
 

@@ -68,6 +68,9 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
     where.field = claim.reason == v1::REJECTED_OLD_RUN ? "run" : "simulator_id";
     where.detail = claim.detail;
     const bool contends = claim.reason == v1::REJECTED_ID_OWNED;
+    // It writes again if the service in force refuses it, which may have heard of its owner's end
+    // already.
+    if (contends && world_.stands_by()) AwaitName(input, where.simulator_id);
     if (!contends || claim.simulator->contenders().Add(input.sender())) {
       rejections_.Add(where);
     } else {
@@ -80,10 +83,10 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
         fmt::format("simulator {} \"{}\": run {} follows run {}, whose {} agents are removed",
                     IdText(claim.simulator->id()), claim.simulator->name(), where.run,
                     claim.simulator->run(), claim.simulator->agents().size()));
-    world_.AwaitRun(*claim.simulator, where.run);
+    const bool held = claim.simulator->holds_time();
     agents_.RemoveAll(claim.simulator);
     shapes_.Release(claim.simulator->id());
-    claim.simulator->StartRun(input.sender(), where.run);
+    world_.StartRun(claim.simulator, input.sender(), where.run, held);
   }
   if (name != nullptr) {
     claim.simulator->SetIncarnation(where.incarnation);
@@ -91,6 +94,15 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
   }
   if (where.topic != v1::TOPIC_SIMULATOR_CLOCK) claim.simulator->CountTold();
   return claim.simulator;
+}
+
+bool Intake::SucceedsAll(const v1::Input& input) const {
+  const auto succeeds = [&](const auto& wire) {
+    return !CheckIdentity(wire) &&
+           world_.SucceedsAll(wire.simulator_id(), input.sender(), wire.run());
+  };
+  if (input.has_agent_description()) return succeeds(input.agent_description());
+  return input.has_simulator_clock() && succeeds(input.simulator_clock());
 }
 
 void Intake::AwaitName(const v1::Input& input, std::uint64_t simulator_id) {

@@ -19,10 +19,10 @@ std::string WaitText(const Awaited& awaited, const World& world) {
     }
     case WaitReason::kStands:
       return awaited.name + ": was granted time and does not move";
-    case WaitReason::kDoesNotFollowYet:
-      return awaited.name + ": has not heard this service yet (it has just begun to serve)";
     case WaitReason::kHasNoClock:
       return awaited.name + ": has started again and has told no clock yet";
+    case WaitReason::kDoesNotFollowYet:
+      return awaited.name + ": has not heard this service yet (it has just begun to serve)";
     case WaitReason::kMissing:
       return awaited.name + ": not back since the service started again";
   }

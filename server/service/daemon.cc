@@ -98,6 +98,7 @@ class Daemon::Implementation {
     if (clock_step_ && claim_.phase() != ClaimPhase::kWaking) FollowStep();
     for (const v1::Input& input : inputs) {
       if (quarantine_ != nullptr) quarantine_->Apply(input);
+      if (claim_.works() && intake_.SucceedsAll(input)) EndEpoch("all who held time start again");
       rounds_.Apply(input);
     }
     if (quarantine_ != nullptr) quarantine_->EndMessages();
@@ -116,8 +117,7 @@ class Daemon::Implementation {
     if (restarts) EndEpoch("an operator restarts time");
     if (claim_.works() && world_.EpochIsOver()) EndEpoch("no simulator holds time any more");
     intake_.EndBatch();
-    const bool serves = claim_.phase() == ClaimPhase::kServing;
-    if (serves && !journal_.Keep(world_)) return false;
+    if (claim_.phase() == ClaimPhase::kServing && !journal_.Keep(world_)) return false;
     if (claim_.speaks()) {
       PublishAnswers();
     } else {

@@ -15,7 +15,7 @@ constexpr std::int64_t kTryAgainAfter = 1'000'000'000;  // [ns]
 
 /// Whether a restarted service must wait for it.
 bool IsInEpoch(const Simulator& simulator) {
-  return simulator.time().clock().has_value() && !simulator.has_left();
+  return simulator.time().stands_at().has_value() && !simulator.has_left();
 }
 
 }  // namespace
@@ -79,7 +79,11 @@ bool RosterJournal::KeepOne(const Simulator& simulator) {
   }
   JournalledSimulator entry{
       .id = simulator.id(), .run = simulator.run(), .name = simulator.name(), .granted = {}};
-  if (granted) entry.granted = numeric::AddRoundedUp(*granted, written_ahead_);
+  if (granted) {
+    entry.granted = numeric::AddRoundedUp(*granted, written_ahead_);
+  } else if (found != roster.end()) {
+    entry.granted = found->second.granted;  // to its former run
+  }
   return parts_.journal->Put(entry);
 }
 

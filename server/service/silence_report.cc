@@ -25,11 +25,11 @@ bool SilenceReport::TakeWaited(const std::vector<Awaited>& waited) {
       case WaitReason::kStands:
         stands_.Add(one.name);
         break;
-      case WaitReason::kDoesNotFollowYet:
-        not_following_.Add(one.name);
-        break;
       case WaitReason::kHasNoClock:
         without_clock_.Add(one.name);
+        break;
+      case WaitReason::kDoesNotFollowYet:
+        not_following_.Add(one.name);
         break;
       case WaitReason::kMissing:
         missing_.Add(one.name);
@@ -52,7 +52,7 @@ void SilenceReport::AddRemoved(const std::string& name) {
 
 void SilenceReport::Write(std::int64_t monotonic_ns) {
   for (NamesLog* log :
-       {&silent_, &stands_, &not_following_, &without_clock_, &missing_, &releases_, &removals_}) {
+       {&silent_, &stands_, &without_clock_, &not_following_, &missing_, &releases_, &removals_}) {
     log->Write(monotonic_ns);
   }
 }

@@ -39,12 +39,13 @@ class SilenceReport {
   NamesLog stands_{
       "world time waits for simulator {}: it was granted time and does not move (see "
       "clock.waiting_after_s); let it go on, or evict it with collisionctl evict"};
+  NamesLog without_clock_{
+      "world time waits for simulator {}: it has started again, and no clock of it has been "
+      "accepted "
+      "yet; let it go on, or evict it with collisionctl evict"};
   NamesLog not_following_{
       "world time waits for simulator {}: it is there, but has not heard this service yet, which "
       "has just begun to serve; there is nothing to do unless this lasts"};
-  NamesLog without_clock_{
-      "world time waits for simulator {}: it has started again, and has told no clock yet; let it "
-      "go on, or evict it with collisionctl evict"};
   NamesLog missing_{
       "world time waits for simulator {}: the service before this one served it, and it is not "
       "back yet; start it again, or evict it with collisionctl evict"};

@@ -21,23 +21,8 @@ Silence::Silence(const v1::Config& config, const std::vector<JournalledSimulator
       releases_(config.clock().on_silent_simulator() == v1::Clock::RELEASE),
       release_after_ns_(Nanoseconds(config.clock().release_after_s())),
       remove_after_ns_(Nanoseconds(config.clock().remove_silent_after_s())),
-      named_after_ns_(Nanoseconds(config.clock().waiting_after_s())),
-      progress_(named_after_ns_),
+      progress_(Nanoseconds(config.clock().waiting_after_s())),
       roster_(simulated_ ? roster : std::vector<JournalledSimulator>{}) {}
-
-void Silence::AwaitRoster(const std::vector<JournalledSimulator>& roster, std::int64_t now_ns) {
-  const std::map<std::uint64_t, Missing> awaited = roster_.entries();
-  roster_ = Roster({});
-  for (const auto& [id, missing] : awaited) roster_.Await(id, missing);
-  for (const JournalledSimulator& one : roster) {
-    roster_.Await(one.id, {.run = one.run, .name = one.name, .since_ns = now_ns});
-  }
-}
-
-void Silence::AwaitRun(const Simulator& simulator, std::uint32_t run, std::int64_t now_ns) {
-  roster_.Await(simulator.id(),
-                {.run = run, .name = simulator.name(), .since_ns = now_ns, .started_again = true});
-}
 
 void Silence::Update(const Simulators& simulators, std::int64_t now_ns) {
   if (!begun_ns_) begun_ns_ = now_ns;
@@ -45,8 +30,9 @@ void Silence::Update(const Simulators& simulators, std::int64_t now_ns) {
   Instant least = Instant::Never();
   Instant greatest_alive = Instant::Always();
   for (const auto& [id, simulator] : simulators) {
-    if (!simulator.time().clock()) continue;
-    if (!simulator.is_inherited()) roster_.Arrive(id, simulator.run());
+    if (simulator.time().clock() && !simulator.is_inherited()) {
+      roster_.Arrive(id, simulator.run());
+    }
     if (!simulator.holds_time()) continue;
     const Instant told = simulator.time().told_until();
     least = std::min(least, told);
@@ -56,7 +42,7 @@ void Silence::Update(const Simulators& simulators, std::int64_t now_ns) {
   for (const auto& [id, simulator] : simulators) {
     if (!simulator.alive() || !simulator.holds_time()) continue;
     const SimulatorTime& time = simulator.time();
-    const bool may_go_on = time.granted() > time.told_until();
+    const bool may_go_on = !time.clock() || time.granted() > time.told_until();
     holders.push_back({.id = id,
                        .is_last = time.told_until() == least && may_go_on,
                        .others_wait = least < greatest_alive,
@@ -76,27 +62,19 @@ std::optional<std::int64_t> Silence::ReleaseDue(const Simulator& simulator) cons
 std::optional<std::int64_t> Silence::RemovalDue(const Simulator& simulator) const {
   if (remove_after_ns_ == 0 || simulator.has_left()) return std::nullopt;
   if (simulated_ && simulator.holds_time()) return std::nullopt;
-  if (roster_.IsMissing(simulator.id())) return std::nullopt;
   if (simulator.released()) return simulator.released_since_ns() + remove_after_ns_;
   if (simulator.alive()) return std::nullopt;
   return simulator.silent_since_ns() + remove_after_ns_;
 }
 
-std::optional<std::int64_t> Silence::ReleaseDue(const Missing& missing) const {
-  const std::optional<std::int64_t> since_ns = missing.since_ns ? missing.since_ns : begun_ns_;
-  if (!releases_ || !since_ns) return std::nullopt;
-  return *since_ns + release_after_ns_;
-}
-
-bool Silence::IsNamed(const Missing& missing, std::int64_t now_ns) const {
-  return !missing.started_again || now_ns - missing.since_ns.value_or(now_ns) >= named_after_ns_;
+std::optional<std::int64_t> Silence::RosterDue() const {
+  if (roster_.complete() || !releases_ || !begun_ns_) return std::nullopt;
+  return *begun_ns_ + release_after_ns_;
 }
 
 std::vector<std::string> Silence::Release(Simulators* simulators, std::int64_t now_ns) {
   std::vector<std::string> released;
-  if (releases_ && begun_ns_) {
-    released = roster_.GiveUpSince(now_ns - release_after_ns_, *begun_ns_);
-  }
+  if (const auto due = RosterDue(); due && *due <= now_ns) released = roster_.GiveUpAll();
   for (auto& [id, simulator] : *simulators) {
     const auto due = ReleaseDue(simulator);
     if (!due || *due > now_ns) continue;
@@ -124,7 +102,8 @@ std::vector<Awaited> Silence::Waited(const Simulators& simulators, std::int64_t 
     if (!simulator.alive()) {
       waited.push_back({simulator.name(), WaitReason::kEnded});
     } else if (progress_.IsNamed(id, now_ns)) {
-      waited.push_back({simulator.name(), WaitReason::kStands});
+      const bool stands = simulator.time().clock().has_value();
+      waited.push_back({simulator.name(), stands ? WaitReason::kStands : WaitReason::kHasNoClock});
     }
   }
   for (const auto& [id, entry] : roster_.entries()) {
@@ -133,13 +112,7 @@ std::vector<Awaited> Silence::Waited(const Simulators& simulators, std::int64_t 
       continue;  // kEnded says so
     }
     const bool lives = there != simulators.end() && there->second.alive();
-    if (!entry.started_again) {
-      waited.push_back({entry.name, lives ? WaitReason::kDoesNotFollowYet : WaitReason::kMissing});
-    } else if (!lives) {
-      waited.push_back({entry.name, WaitReason::kEnded});
-    } else if (IsNamed(entry, now_ns)) {
-      waited.push_back({entry.name, WaitReason::kHasNoClock});
-    }
+    waited.push_back({entry.name, lives ? WaitReason::kDoesNotFollowYet : WaitReason::kMissing});
   }
   std::sort(waited.begin(), waited.end());
   return waited;
@@ -147,11 +120,8 @@ std::vector<Awaited> Silence::Waited(const Simulators& simulators, std::int64_t 
 
 std::optional<std::int64_t> Silence::NextDue(const Simulators& simulators, bool removes,
                                              std::int64_t now_ns) const {
-  std::optional<std::int64_t> next = progress_.NextDue(now_ns);
-  for (const auto& [id, missing] : roster_.entries()) {
-    TakeEarlier(ReleaseDue(missing), &next);
-    if (!IsNamed(missing, now_ns)) TakeEarlier(*missing.since_ns + named_after_ns_, &next);
-  }
+  std::optional<std::int64_t> next = RosterDue();
+  TakeEarlier(progress_.NextDue(now_ns), &next);
   for (const auto& [id, simulator] : simulators) {
     TakeEarlier(ReleaseDue(simulator), &next);
     if (removes) TakeEarlier(RemovalDue(simulator), &next);

@@ -15,11 +15,11 @@
 namespace collision::server {
 
 enum class WaitReason {
-  kEnded,   ///< It is not heard: its process has ended, or stands still; its agents are there.
-  kStands,  ///< It was granted time, lives, and tells nothing new.
+  kEnded,       ///< It is not heard: its process has ended, or stands still; its agents are there.
+  kStands,      ///< It was granted time, lives, and tells nothing new.
+  kHasNoClock,  ///< It has started again, lives, and has told no clock yet.
   kDoesNotFollowYet,  ///< A service before this one served it; it lives.
   kMissing,           ///< Likewise, but it is not heard.
-  kHasNoClock,        ///< It has started again, and has told no clock yet.
 };
 
 /// A simulator that the world's time waits for.
@@ -35,8 +35,7 @@ struct Awaited {
 /// **Simulated clock.** A simulator whose process has ended, or that stands (Progress), holds time
 /// for ever (WAIT), or until `release_after_s` is over (RELEASE): it is released, its agents stay,
 /// and it holds time again once it goes on. One that lives is released only while others wait for
-/// it. Likewise the service waits for the roster of the one before it, and for the first clock of
-/// a simulator that held time and has started again.
+/// it. Likewise the service waits for the roster of the one before it.
 ///
 /// **Removal.** A simulator that has been silent for `remove_silent_after_s` is to be removed with
 /// its agents: with a wall clock since its process ended, with a simulated one since it was
@@ -56,10 +55,10 @@ class Silence {
 
   /// Another service has ended, and this one goes on with those that it served. The waiting for
   /// them begins now.
-  void AwaitRoster(const std::vector<JournalledSimulator>& roster, std::int64_t now_ns);
-
-  /// A simulator that held time has started again, and has told no clock of its own yet.
-  void AwaitRun(const Simulator& simulator, std::uint32_t run, std::int64_t now_ns);
+  void AwaitRoster(const std::vector<JournalledSimulator>& roster, std::int64_t now_ns) {
+    roster_ = Roster(roster);
+    begun_ns_ = now_ns;
+  }
 
   /// Takes note of who has moved and who is back. Call it once a step, after the inputs.
   void Update(const Simulators& simulators, std::int64_t now_ns);
@@ -81,14 +80,12 @@ class Silence {
  private:
   std::optional<std::int64_t> ReleaseDue(const Simulator& simulator) const;
   std::optional<std::int64_t> RemovalDue(const Simulator& simulator) const;
-  std::optional<std::int64_t> ReleaseDue(const Missing& missing) const;
-  bool IsNamed(const Missing& missing, std::int64_t now_ns) const;
+  std::optional<std::int64_t> RosterDue() const;
 
   const bool simulated_;
   const bool releases_;
   const std::int64_t release_after_ns_;
   const std::int64_t remove_after_ns_;  ///< 0: never.
-  const std::int64_t named_after_ns_;
   Progress progress_;
   Roster roster_;
   std::optional<std::int64_t> begun_ns_;  ///< The first Update().

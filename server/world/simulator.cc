@@ -2,9 +2,9 @@
 
 namespace collision::server {
 
-void Simulator::StartRun(std::uint64_t sender, std::uint32_t run) {
+void Simulator::StartRun(std::uint64_t sender, std::uint32_t run, bool awaited) {
   agents_.Clear();
-  time_ = {};
+  time_ = awaited ? SimulatorTime::After(time_) : SimulatorTime();
   sender_clock_ = {};
   sender_ = sender;
   run_ = run;
@@ -28,6 +28,7 @@ void Simulator::Release(std::int64_t monotonic_ns) {
 
 void Simulator::End() {
   agents_.Clear();
+  time_.ForgetFormer();
   ended_ = true;
 }
 

@@ -35,8 +35,9 @@ class Simulator {
   std::uint32_t incarnation() const { return incarnation_; }
   void SetIncarnation(std::uint32_t incarnation) { incarnation_ = incarnation; }
 
-  /// Starts a run of `sender`. Requires that the agents have been removed.
-  void StartRun(std::uint64_t sender, std::uint32_t run);
+  /// Starts a run of `sender`. Requires that the agents have been removed. `awaited`: the world's
+  /// time waits for its first clock, as it waited for the former run.
+  void StartRun(std::uint64_t sender, std::uint32_t run, bool awaited = false);
 
   /// The world's time begins anew, and it is not in it: no agents, no clock, no grant. Requires
   /// that the agents have been removed.
@@ -67,11 +68,15 @@ class Simulator {
   void End();
 
   /// Gone for good: its process or its run has ended, or no step of it follows, and its agents are
-  /// removed, or it never described any.
-  bool has_left() const { return (!alive() || time_.has_finished()) && agents_.size() == 0; }
+  /// removed, or it never described any. A run that follows one which the world waited for, and
+  /// ends before it has told an agent, is waited for like that one.
+  bool has_left() const {
+    const bool is_over = time_.has_finished() || (!alive() && !time_.is_awaited());
+    return is_over && agents_.size() == 0;
+  }
 
   /// Whether the world's time waits for it.
-  bool holds_time() const { return time_.clock().has_value() && !released_ && !has_left(); }
+  bool holds_time() const { return time_.stands_at().has_value() && !released_ && !has_left(); }
 
   detection::AgentId IdOf(std::uint32_t slot, std::uint32_t generation) const {
     return {.simulator = id_, .slot = slot, .run = run_, .generation = generation};

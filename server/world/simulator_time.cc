@@ -9,6 +9,15 @@ Instant ToldUntil(Instant clock, const std::optional<Instant>& next) {
   return Instant::FromNanoseconds(next->nanoseconds() - 1);
 }
 
+SimulatorTime SimulatorTime::After(const SimulatorTime& former) {
+  SimulatorTime time;
+  if (const auto clock = former.stands_at()) {
+    time.former_ = {.clock = *clock, .next = former.clock_ ? former.next_ : former.former_->next};
+    time.Hear(*clock, former.told_until());
+  }
+  return time;
+}
+
 void SimulatorTime::RecordStates(std::uint64_t sequence) {
   states_seen_ = std::max(states_seen_, sequence);
 }
@@ -56,16 +65,29 @@ bool SimulatorTime::Take() {
     taken = true;
   }
   if (taken && !first_clock_) first_clock_ = clock_;
+  if (taken && !awaits_own_clock_) ForgetFormer();
   return taken;
 }
 
 Instant SimulatorTime::told_until() const {
-  return clock_ ? ToldUntil(*clock_, next_) : Instant::Always();
+  if (clock_) return ToldUntil(*clock_, next_);
+  return former_ ? ToldUntil(former_->clock, former_->next) : Instant::Always();
+}
+
+std::optional<Instant> SimulatorTime::stands_at() const {
+  if (clock_) return clock_;
+  return former_ ? std::optional(former_->clock) : std::nullopt;
+}
+
+bool SimulatorTime::tells_next() const {
+  if (clock_) return next_.has_value();
+  return former_ && former_->next.has_value();
 }
 
 void SimulatorTime::Restart() {
   newest_ = heard_ = heard_until_ = Instant::Always();
   pending_.clear();
+  former_.reset();
   first_clock_.reset();
   clock_.reset();
   next_.reset();

@@ -36,6 +36,12 @@ inline constexpr std::size_t kPendingClocksMax = 16;
 /// newer one, and refused samples count as arrived, so that no clock waits for ever. One thread.
 class SimulatorTime {
  public:
+  SimulatorTime() = default;
+
+  /// Of a run that follows one with this time, which the world waited for: it stands where that one
+  /// stood until it has told a clock of its own.
+  static SimulatorTime After(const SimulatorTime& former);
+
   void RecordStates(std::uint64_t sequence);
   void RecordDescriptions(std::uint64_t sequence);
 
@@ -82,11 +88,21 @@ class SimulatorTime {
 
   /// All that its simulator has to tell up to and including this time has arrived: the time before
   /// its next step or, where it does not say when that is, its clock. Never(): no step follows.
-  /// Always() without a clock.
+  /// Always() without a clock. Before the first clock of its own, what its former run told.
   Instant told_until() const;
 
-  /// Its newest clock says when its next step is.
-  bool tells_next() const { return next_.has_value(); }
+  /// The clock that the world waits at: the newest in force, or that of its former run.
+  std::optional<Instant> stands_at() const;
+
+  /// The clock that it stands at says when its next step is.
+  bool tells_next() const;
+
+  /// It follows a run that the world waited for, and has told neither a clock nor an agent of its
+  /// own.
+  bool is_awaited() const { return former_.has_value() && descriptions_seen_ == 0; }
+
+  /// Nobody waits for it in place of its former run any more.
+  void ForgetFormer() { former_.reset(); }
 
   /// No step follows.
   bool has_finished() const { return next_ && next_->is_never(); }
@@ -115,6 +131,7 @@ class SimulatorTime {
   Instant heard_ = Instant::Always();
   Instant heard_until_ = Instant::Always();
   std::deque<PendingClock> pending_;
+  std::optional<PendingClock> former_;  ///< In force when its former run ended.
   std::optional<Instant> first_clock_;
   std::optional<Instant> clock_;
   std::optional<Instant> next_;  // of the clock in force

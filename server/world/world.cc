@@ -62,12 +62,15 @@ Simulator* World::Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
   return &simulators_.try_emplace(id, id, sender, run, name).first->second;
 }
 
+std::optional<std::string> World::RefusalOf(std::uint64_t id, std::uint32_t run) const {
+  const auto refusal = ended_runs_.Refusal(id, run);
+  return refusal ? refusal : silence_.roster().Refusal(id, run);
+}
+
 Claim World::ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                       const std::string* name) {
   Claim claim{.simulator = Find(id)};
-  auto refusal = ended_runs_.Refusal(id, run);
-  if (!refusal) refusal = silence_.roster().Refusal(id, run);
-  if (refusal) {
+  if (const auto refusal = RefusalOf(id, run)) {
     claim.reason = v1::REJECTED_OLD_RUN;
     claim.detail = *refusal;
     return claim;
@@ -98,12 +101,6 @@ Claim World::ClaimForNew(std::uint64_t id, std::uint64_t sender, std::uint32_t r
   claim.detail = "the world has " + std::to_string(simulators_.size()) +
                  " simulators; allowed: at most " + std::to_string(simulators_max_);
   return claim;
-}
-
-void World::AwaitRun(const Simulator& simulator, std::uint32_t run) {
-  if (!simulated_ || !started_ || !simulator.holds_time()) return;
-  if (simulator.time().has_finished()) return;
-  silence_.AwaitRun(simulator, run, monotonic_ns());
 }
 
 void World::UpdateQuotas() {
@@ -180,12 +177,13 @@ std::optional<Instant> World::NextNow() const {
   Instant last = Instant::Always();
   for (const auto& [id, simulator] : simulators_) {
     const SimulatorTime& time = simulator.time();
-    if (!time.clock()) continue;
+    const std::optional<Instant> clock = time.stands_at();
+    if (!clock) continue;
     // Who has finished and left is not waited for, but its last round counts.
     if (!simulator.holds_time() && (simulator.released() || !time.has_finished())) continue;
     told = std::min(told, time.told_until());
-    first = std::min(first, *time.clock());
-    last = std::max(last, *time.clock());
+    first = std::min(first, *clock);
+    last = std::max(last, *clock);
   }
   if (first.is_never() || !silence_.roster().complete()) return std::nullopt;
   if (!started_) {
@@ -234,16 +232,28 @@ std::optional<std::int64_t> World::NextRelease() const {
 
 void World::EndRun(Simulator* simulator, EndCause cause) {
   ended_runs_.Add(simulator->id(), simulator->run(), cause);
-  silence_.roster().GiveUp(simulator->name());
   simulator->End();
 }
 
 bool World::EpochIsOver() const {
-  return simulated_ && started_ && !silence_.roster().AwaitsNewRun() &&
-         std::none_of(simulators_.begin(), simulators_.end(), [](const auto& one) {
-           const bool succeeded = !one.second.alive() && !one.second.contenders().empty();
-           return one.second.holds_time() && !succeeded;
-         });
+  return simulated_ && started_ &&
+         std::none_of(simulators_.begin(), simulators_.end(),
+                      [](const auto& one) { return one.second.holds_time(); });
+}
+
+bool World::SucceedsAll(std::uint64_t id, std::uint64_t sender, std::uint32_t run) const {
+  const auto found = simulators_.find(id);
+  if (!simulated_ || !started_ || found == simulators_.end()) return false;
+  const Simulator& former = found->second;
+  if (!former.holds_time() || former.sender() == sender || run <= former.run()) return false;
+  if (RefusalOf(id, run)) return false;
+  return std::none_of(simulators_.begin(), simulators_.end(), [](const auto& one) {
+    return one.second.holds_time() && one.second.alive();
+  });
+}
+
+void World::StartRun(Simulator* simulator, std::uint64_t sender, std::uint32_t run, bool held) {
+  simulator->StartRun(sender, run, simulated_ && held && !simulator->time().has_finished());
 }
 
 void World::FinishEpoch() {
@@ -256,6 +266,7 @@ void World::BeginEpoch() {
   if (!simulated_) return BeginWallEpoch();
   for (auto& [id, simulator] : simulators_) {
     if (LeavesWithEpoch(simulator)) simulator.LeaveEpoch();
+    simulator.time().ForgetFormer();
   }
   silence_.roster().Forget();
   ++epoch_;

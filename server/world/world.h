@@ -55,9 +55,10 @@ struct Claim {
 ///
 /// **Epochs** (simulated clock). When nobody holds time any more, the epoch is over: agents that
 /// were left behind are gone, and the next simulator's first clock begins another one, at whatever
-/// time it names up to `first_clock_max_s`. A dead simulator whose successor waits holds no time
-/// here. Wall clock: a step of it that breaks the time begins another epoch at once; simulators and
-/// the descriptions of their agents stay.
+/// time it names up to `first_clock_max_s`. So it is when all who hold time are dead and one of
+/// them starts again. One that starts again beside others holds time where its former run stood,
+/// until it has told a clock of its own. Wall clock: a step of it that breaks the time begins
+/// another epoch at once; simulators and the descriptions of their agents stay.
 ///
 /// **Grants** (simulated clock). All may run until the least `clear_until` of all agents, at least
 /// to now + `temporal_resolution_s`, at most to now + `grant_ahead_max_s`; a grant is never
@@ -74,9 +75,9 @@ class World {
   Claim ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                  const std::string* name);
 
-  /// Before a run of the simulator follows the one in force, whose agents are still there. If that
-  /// one holds time, the world waits for the new run's first clock.
-  void AwaitRun(const Simulator& simulator, std::uint32_t run);
+  /// A run follows the one in force, whose agents have been removed. `held`: before that, the
+  /// simulator held time. Then the world waits for the first clock of the new run, too.
+  void StartRun(Simulator* simulator, std::uint64_t sender, std::uint32_t run, bool held);
 
   /// Null: unknown.
   Simulator* Find(std::uint64_t id);
@@ -148,9 +149,13 @@ class World {
   const EndedRuns& ended_runs() const { return ended_runs_; }
   EndedRuns& ended_runs() { return ended_runs_; }
 
-  /// Simulated clock: it has begun, and nobody holds time any more. Call it before successors take
-  /// over.
+  /// Simulated clock: it has begun, and nobody holds time any more.
   bool EpochIsOver() const;
+
+  /// Simulated clock: all who hold time are dead, and a named message of this sender begins the
+  /// next run of one of them. Nobody is left who knows this time: the epoch is over before that
+  /// run.
+  bool SucceedsAll(std::uint64_t id, std::uint64_t sender, std::uint32_t run) const;
 
   /// Brings `now` to the greatest clock in force: all that was told of this epoch counts.
   void FinishEpoch();
@@ -258,6 +263,7 @@ class World {
   void Validate() const;
 
  private:
+  std::optional<std::string> RefusalOf(std::uint64_t id, std::uint32_t run) const;
   bool HasRoomFor(std::uint64_t id) const;
   Simulator* Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                  const std::string& name);

@@ -15,10 +15,10 @@
 namespace collision::server {
 
 inline constexpr std::chrono::milliseconds kShort{20};  ///< One wait inside a loop.
-inline constexpr std::chrono::seconds kDeadline{20};    ///< For what must come.
+inline constexpr std::chrono::seconds kDeadline{120};   ///< For what must come.
 inline constexpr std::uint32_t kIncarnation = 77;       ///< Of all that write descriptions here.
 inline constexpr std::uint64_t kRemovalSequence = 90;   ///< Of every removal.
-inline constexpr std::chrono::nanoseconds kLease = std::chrono::milliseconds(300);
+inline constexpr std::chrono::nanoseconds kLease = std::chrono::seconds(1);
 
 /// This process's own, so that tests that run side by side do not meet.
 std::uint32_t TestDomain();

@@ -23,7 +23,7 @@ constexpr int kDomain = 84;
 constexpr int kDronesOfEach = 8;
 constexpr char kRoundMax[] = "0.5";                  // [s] grant_ahead_max_s
 constexpr std::int64_t kRoundMaxNs = 500'000'000;    // the same
-constexpr std::int64_t kUntilStart = 4'000'000'000;  // [ns] longer than discovery takes
+constexpr std::int64_t kUntilStart = 8'000'000'000;  // [ns] longer than discovery takes
 constexpr std::int64_t kTransit = 200'000'000;       // [ns] of a sample, beside the link's delay
 constexpr std::chrono::milliseconds kDrainEvery{50};
 constexpr std::chrono::milliseconds kQuiet{700};  // longer than a lost sample takes
@@ -204,6 +204,17 @@ Flown Testbed::Finish() {
   return FinishNow();
 }
 
+/// The listener has heard them all.
+void Testbed::AwaitPrinted() {
+  std::uint64_t newest = 0;
+  const Heard heard = listener_->heard();
+  for (const v1::CollisionEvent& event : heard.observations.events) {
+    newest = std::max(newest, event.contacts_sequence());
+  }
+  if (newest == 0) return;
+  process(kMonitor).WaitForOutput("\"contacts_sequence\":\"" + std::to_string(newest) + "\"");
+}
+
 Flown Testbed::FinishNow() {
   Flown flown;
   const auto end = [&](Party party) {
@@ -218,6 +229,7 @@ Flown Testbed::FinishNow() {
   end(kAlpha);
   end(kBeta);
   AwaitQuiet();
+  AwaitPrinted();
   end(kMonitor);
   flown.printed = ParseEvents(process(kMonitor).out());
   flown.monitor_said = process(kMonitor).err();

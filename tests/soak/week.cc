@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/api/monitor.h"
@@ -78,13 +79,16 @@ class Week {
     for (int crew = 0; crew < kCrews; ++crew) Start(crew, 0);
     while (crews_[0].process) {
       monitor.Poll(std::chrono::milliseconds(5));
+      // A program says what it flies before anybody can hear of it.
       for (int crew = 0; crew < kCrews; ++crew) Attend(crew);
+      for (const client::Event& event : std::exchange(heard_, {})) judge_.Hear(event);
       // Its log is taken: a full pipe would stop it.
       const auto ended = daemon_->WaitForExit(std::chrono::milliseconds(1));
       if (!outcome_.Expect(!ended, "the service has ended: " + daemon_->err())) return;
     }
     // Until the last status has come.
     for (int i = 0; i < 100; ++i) monitor.Poll(std::chrono::milliseconds(20));
+    for (const client::Event& event : heard_) judge_.Hear(event);
     judge_.End();
     outcome_.Expect(monitor.contacts_missed() == 0, "the monitor has missed contacts");
     Tell();
@@ -137,7 +141,7 @@ class Week {
 
   void Hear(const client::Event& event) {
     ++events_;
-    judge_.Hear(event);
+    heard_.push_back(event);
   }
 
   void Note(const client::ServiceStatus& status) {
@@ -215,6 +219,7 @@ class Week {
   /// As far as is known: the first crew flies to the end, and ends well if it has come there.
   std::int64_t reached_ns_ = 0;
   int programs_ = 0, killed_ = 0;
+  std::vector<client::Event> heard_;  ///< Not judged yet.
   std::uint64_t events_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 constexpr int kOccupied = 75;
 
 TEST(Claim, BesideALiveServiceASecondOneEndsAndSaysWhy) {
-  TestWorld world(71);
+  TestWorld world(71, "simulators_awaited: 2", "claim_wait_s: 5\n");
   const auto daemon = world.StartDaemon();
   world.SetStateFolder("");
   const auto second = world.LaunchDaemon();
@@ -35,7 +35,7 @@ TEST(Claim, WithTheStateFolderInUseItEndsAtOnce) {
 }
 
 TEST(Claim, OfThreeThatStartTogetherOneServes) {
-  TestWorld world(73);
+  TestWorld world(73, "simulators_awaited: 2", "claim_wait_s: 5\n");
   world.SetStateFolder("");
   std::unique_ptr<Process> daemons[3];
   for (auto& daemon : daemons) daemon = world.LaunchDaemon();

@@ -30,7 +30,7 @@ double ResidentMb(pid_t process) {
 class Flood : public testing::TestWithParam<const char*> {};
 
 TEST_P(Flood, CostsNoMemoryAndNoOtherItsAnswers) {
-  const TestWorld world(82, "simulators_awaited: 1");
+  const TestWorld world(82, "simulators_awaited: 1", "waiting_mb_max: 16\n");
   const auto daemon = world.StartDaemon();
   const auto honest = world.StartHelper("flood", {"answers", "8"});
   ASSERT_TRUE(honest->WaitForOutput("steps")) << honest->err() << daemon->err();

@@ -108,9 +108,11 @@ void Process::Signal(int signal) {
 bool Process::WaitUntil(const std::function<bool()>& condition, std::chrono::nanoseconds patience) {
   const auto deadline = Clock::now() + patience;
   while (!condition()) {
-    const auto left = deadline - Clock::now();
-    if (status_ || left <= std::chrono::nanoseconds(0)) return false;
-    Gather(left);
+    if (status_) return false;
+    // What there is is taken, also if this process was not run for so long.
+    const std::chrono::nanoseconds left = deadline - Clock::now();
+    Gather(std::max(left, std::chrono::nanoseconds(0)));
+    if (left.count() <= 0) return condition();
   }
   return true;
 }

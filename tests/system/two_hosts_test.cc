@@ -31,8 +31,8 @@ TEST(TwoHosts, AnUnpluggedCableEndsNoProgramAndLosesNoEvent) {
   const auto daemon = world.StartDaemon();
   const auto events = world.StartMonitor({"events", "--follow"});
   world.MoveTo(hosts.host(1));
-  const auto left = world.StartSimulator(kLeft, {"--speed", "1"});
-  const auto right = world.StartSimulator(kRight, {"--speed", "1"});
+  const auto left = world.StartSimulator(kLeft, {"--speed", "0.5"});
+  const auto right = world.StartSimulator(kRight, {"--speed", "0.5"});
   ASSERT_TRUE(events->WaitForOutput("possible")) << events->out() << daemon->err() << left->err();
   hosts.Plug(false);
   // Long enough that samples are lost: nothing but the cable can bring more.

@@ -17,7 +17,7 @@ enum class Streams {
 };
 
 /// Between SIGTERM and SIGKILL.
-inline constexpr std::chrono::seconds kGrace{2};
+inline constexpr std::chrono::seconds kGrace{15};
 
 /// The destructor ends the child: SIGTERM, and SIGKILL after kGrace. The child also gets SIGTERM if
 /// this program dies. It has a process group of its own, so that Ctrl-C reaches only this program,

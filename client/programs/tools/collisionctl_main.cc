@@ -107,6 +107,7 @@ void Follow(MessageMonitor* monitor, WorldView* view, bool json) {
     const auto note = notes.Take(monitor->service_alive(), view->status());
     if (note) std::cerr << *note << '\n';
   }
+  monitor->Poll(std::chrono::nanoseconds(0));  // What had arrived when it was told to stop.
   PrintGap(monitor->contacts_missed(), &missed, json);
   PrintNewEvents(view, &pending, json);
   std::cerr << ContactsSummary(view->contacts(), monitor->contacts_missed()) << '\n';

@@ -114,6 +114,32 @@ TEST(ServiceClaim, OfTwoStandbysTheOneThatCameInTheLowerTermTakesOver) {
   EXPECT_EQ(junior.phase(), ClaimPhase::kServing);
 }
 
+TEST(ServiceClaim, OneThatStoodStillWhileItClaimedListensAnew) {
+  ServiceClaim claim(Options(5));
+  claim.Update(0);
+  claim.WakeUp(2 * kSecond, 2 * kSecond);
+  ServiceClaim late = claim;
+  late.Update(2 * kSecond);
+  EXPECT_EQ(late.phase(), ClaimPhase::kServing) << "a step that waits may end late";
+  claim.WakeUp(2 * kSecond + 1, 3 * kSecond);
+  claim.Update(3 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kClaiming);
+  claim.Hear(Heard(7, OtherPhase::kServing, 1, 1), 3 * kSecond + 1);
+  claim.Update(3 * kSecond + 1);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kYielded);
+}
+
+TEST(ServiceClaim, OneThatIsAlwaysSlowServesAllTheSame) {
+  ServiceClaim claim(Options(5));
+  claim.Update(0);
+  int steps = 0;
+  for (; claim.phase() == ClaimPhase::kClaiming && steps < 100; ++steps) {
+    claim.WakeUp(9 * kSecond, (steps + 1) * 9 * kSecond);
+    claim.Update((steps + 1) * 9 * kSecond);
+  }
+  EXPECT_EQ(steps, kListensAnewMax + 1);
+}
+
 TEST(ServiceClaim, OneThatStoodStillListensFirstAndYieldsToOneSample) {
   ServiceClaim claim = Serving(5);
   claim.WakeUp(9 * kSecond, 10 * kSecond);

@@ -30,7 +30,8 @@ class RosterJournalTest : public testing::Test {
   }
 
   const v1::Config config_ = CompleteConfig({});
-  const std::string folder_ = testing::TempDir() + "roster_journal_test";
+  const std::string folder_ =
+      testing::TempDir() + "roster_journal_test." + std::to_string(getpid());
   World world_{config_, {}};
 };
 

@@ -87,8 +87,9 @@ struct Served {
 
 /// Serves on this bus, with a log and a recording.
 Served ServeOn(Bus& bus, std::shared_ptr<TreeStore> trees = nullptr) {
-  const std::string recording = testing::TempDir() + "serve_test_failed.recording";
-  const std::string log = testing::TempDir() + "serve_test.log";
+  const std::string recording =
+      testing::TempDir() + "serve_test_failed.recording." + std::to_string(getpid());
+  const std::string log = testing::TempDir() + "serve_test.log." + std::to_string(getpid());
   const v1::Config config = CompleteConfig({});
   Served served;
   StartLogging("critical", log);

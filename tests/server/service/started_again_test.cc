@@ -1,6 +1,7 @@
 // Goal:   a simulator that held time and starts again is waited for until it has told a clock, so
 //         that the others are granted nothing past contacts with it, and time does not end without
 //         it; named, released and evicted it is as any other.
+//         Once all who held time are dead, the first that starts again begins a new time.
 // Method: a daemon of which the test writes every step: the messages of the new program arrive one
 //         at a time, as they may.
 #include <gtest/gtest.h>
@@ -54,6 +55,7 @@ class StartedAgainTest : public testing::Test {
 
   // A status takes a second.
   std::int64_t now_ns() { return daemon_.status().now_ns(); }
+  std::uint32_t epoch() { return daemon_.status().stamp().epoch(); }
   std::string waiting_for() { return Extension(daemon_.status(), "waiting_for"); }
 
   mutable ScriptedDaemon daemon_;
@@ -81,14 +83,49 @@ TEST_F(StartedAgainTest, TheOthersAreGrantedNothingBeforeItsFirstClock) {
   clock.set_next_ns(granted + kSecond);
   daemon_.Step({From(12, clock)}, 0.01);
   EXPECT_EQ(now_ns(), granted) << "both have told everything before it";
-  EXPECT_EQ(daemon_.status().stamp().epoch(), 1u);
+  EXPECT_EQ(epoch(), 1u);
 }
 
 TEST_F(StartedAgainTest, TimeDoesNotEndBeforeItHasToldAClock) {
   daemon_.Step({Liveliness(1, "alpha", false), Command(1, v1::OPERATOR_EVICT, "alpha")}, 0.01);
-  EXPECT_EQ(daemon_.status().stamp().epoch(), 1u) << "nobody else holds time";
-  daemon_.Step({Liveliness(12, "beta", false), Command(2, v1::OPERATOR_EVICT, "beta")}, 0.01);
-  EXPECT_EQ(daemon_.status().stamp().epoch(), 2u);
+  EXPECT_EQ(epoch(), 1u) << "nobody else holds time";
+  daemon_.Step({Command(2, v1::OPERATOR_EVICT, "beta")}, 0.01);
+  EXPECT_EQ(epoch(), 2u);
+}
+
+// It was never in the world: nobody has promised it anything.
+TEST_F(StartedAgainTest, WhoLeavesInGoodOrderIsNotWaitedFor) {
+  daemon_.Step({Removal(12, "beta", 0)}, 0.01);
+  daemon_.Step({Liveliness(12, "beta", false)}, 0.01);
+  AlphaReaches(granted_ns("alpha"));
+  EXPECT_GT(now_ns(), 0);
+}
+
+TEST_F(StartedAgainTest, WhoOnlyAsksAndDiesIsWaitedFor) {
+  daemon_.Step({Liveliness(12, "beta", false)}, 0.01);
+  v1::SimulatorClock asks = ClockOf("beta", Instant::Always().nanoseconds(), 3);
+  daemon_.Step({From(22, asks)}, 0.01);
+  const std::int64_t granted = granted_ns("beta");
+  daemon_.Step({Liveliness(22, "beta", false)}, 0.01);
+  AlphaReaches(granted);
+  EXPECT_EQ(granted_ns("alpha"), granted);
+  EXPECT_EQ(waiting_for(), "beta");
+}
+
+// Nobody is left who knows this time, so the world begins anew, whatever comes first.
+TEST_F(StartedAgainTest, OnceAllHaveDiedTheFirstToStartAgainBeginsTheNextEpoch) {
+  daemon_.Step({Liveliness(12, "beta", false)}, 0.01);
+  daemon_.Step({Liveliness(1, "alpha", false)}, 0.01);
+  EXPECT_EQ(epoch(), 1u);
+  v1::SimulatorClock clock = ClockAfter("alpha", 0, 0, 1);
+  clock.set_run(2);
+  daemon_.Step({From(11, Description("alpha", 0, 2)), From(11, clock)}, 0.01);
+  EXPECT_EQ(epoch(), 2u);
+  clock = ClockAfter("beta", 0, 0, 1);
+  clock.set_run(3);
+  daemon_.Step({From(22, Description("beta", 0, 3)), From(22, clock)}, 0.01);
+  EXPECT_EQ(epoch(), 2u);
+  EXPECT_GT(granted_ns("alpha"), 0) << "both are there again";
 }
 
 TEST_F(StartedAgainTest, IsNamedOnceItTakesLongAndOnceItHasDiedAgain) {

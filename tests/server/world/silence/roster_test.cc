@@ -47,23 +47,11 @@ TEST(Roster, GivingUpEndsTheWaiting) {
   EXPECT_FALSE(roster.GiveUp("gamma"));
   EXPECT_TRUE(roster.GiveUp("beta"));
   EXPECT_FALSE(roster.GiveUp("beta"));
-  roster.GiveUpAll();
+  EXPECT_EQ(roster.GiveUpAll(), std::vector<std::string>{"alpha"});
   EXPECT_TRUE(roster.complete());
   EXPECT_EQ(roster.greatest_grant(), Instant::FromNanoseconds(70));
   roster.Forget();
   EXPECT_EQ(roster.greatest_grant(), Instant::Always());
-}
-
-TEST(Roster, EachIsGivenUpByItsOwnTime) {
-  Roster roster(Two());
-  roster.Await(3, {.run = 2, .name = "gamma", .since_ns = 50, .started_again = true});
-  roster.Await(3, {.run = 4, .name = "gamma", .since_ns = 90, .started_again = true});
-  EXPECT_EQ(roster.GiveUpSince(9, 10), std::vector<std::string>{});
-  EXPECT_EQ(roster.GiveUpSince(10, 10), (std::vector<std::string>{"alpha", "beta"}));
-  EXPECT_EQ(roster.GiveUpSince(49, 10), std::vector<std::string>{});
-  roster.Arrive(3, 3);
-  EXPECT_FALSE(roster.complete()) << "that run is over";
-  EXPECT_EQ(roster.GiveUpSince(50, 10), std::vector<std::string>{"gamma"}) << "since its first run";
 }
 
 }  // namespace
