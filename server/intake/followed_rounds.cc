@@ -105,6 +105,13 @@ void FollowedRounds::ApplyKept() {
   follows_ = world_.stands_by() || !kept_.empty();
 }
 
+bool FollowedRounds::SucceedsLast(const v1::Input& input) {
+  if (!intake_.SucceedsLast(input)) return false;
+  intake_.TakeClocks();
+  ApplyKept();
+  return intake_.SucceedsLast(input);
+}
+
 void FollowedRounds::TakeRound() {
   const Instant end = RoundEnd();
   for (auto& [id, kept] : kept_) {

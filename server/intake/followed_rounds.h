@@ -40,6 +40,9 @@ class FollowedRounds {
   /// not end the round otherwise, since the clock with which it did was lost.
   void ApplyKept();
 
+  /// World::SucceedsLast() of this input's sender, once all that has arrived before it counts.
+  bool SucceedsLast(const v1::Input& input);
+
   /// Time begins anew.
   void Clear();
 

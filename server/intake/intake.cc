@@ -70,7 +70,9 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
     const bool contends = claim.reason == v1::REJECTED_ID_OWNED;
     // It writes again if the service in force refuses it, which may have heard of its owner's end
     // already.
-    if (contends && world_.stands_by()) AwaitName(input, where.simulator_id);
+    if (contends && world_.stands_by() && where.run > claim.simulator->run()) {
+      AwaitName(input, where.simulator_id);
+    }
     if (!contends || claim.simulator->contenders().Add(input.sender())) {
       rejections_.Add(where);
     } else {
@@ -96,10 +98,10 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
   return claim.simulator;
 }
 
-bool Intake::SucceedsAll(const v1::Input& input) const {
+bool Intake::SucceedsLast(const v1::Input& input) const {
   const auto succeeds = [&](const auto& wire) {
     return !CheckIdentity(wire) &&
-           world_.SucceedsAll(wire.simulator_id(), input.sender(), wire.run());
+           world_.SucceedsLast(wire.simulator_id(), input.sender(), wire.run());
   };
   if (input.has_agent_description()) return succeeds(input.agent_description());
   return input.has_simulator_clock() && succeeds(input.simulator_clock());
@@ -231,6 +233,7 @@ bool Intake::MayRemove(const Simulator& simulator, const v1::Input& input, bool 
     ++counters_.removals_ignored;
   } else {
     rejections_.Add(refusal);
+    if (world_.stands_by()) AwaitName(input, simulator.id());  // as in Claimed()
   }
   return false;
 }

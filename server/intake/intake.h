@@ -41,8 +41,8 @@ class Intake {
 
   void Apply(const v1::Input& input);
 
-  /// World::SucceedsAll() of this input's sender. Asked before Apply().
-  bool SucceedsAll(const v1::Input& input) const;
+  /// World::SucceedsLast() of this input's sender. Asked before Apply().
+  bool SucceedsLast(const v1::Input& input) const;
 
   /// Whether this clock, which counts, says that its simulator follows this service.
   void NoteFollower(const v1::SimulatorClock& clock);

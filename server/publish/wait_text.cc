@@ -20,7 +20,7 @@ std::string WaitText(const Awaited& awaited, const World& world) {
     case WaitReason::kStands:
       return awaited.name + ": was granted time and does not move";
     case WaitReason::kHasNoClock:
-      return awaited.name + ": has started again and has told no clock yet";
+      return awaited.name + ": has started again, and no clock of it has been accepted yet";
     case WaitReason::kDoesNotFollowYet:
       return awaited.name + ": has not heard this service yet (it has just begun to serve)";
     case WaitReason::kMissing:

@@ -98,7 +98,7 @@ class Daemon::Implementation {
     if (clock_step_ && claim_.phase() != ClaimPhase::kWaking) FollowStep();
     for (const v1::Input& input : inputs) {
       if (quarantine_ != nullptr) quarantine_->Apply(input);
-      if (claim_.works() && intake_.SucceedsAll(input)) EndEpoch("all who held time start again");
+      if (claim_.works() && rounds_.SucceedsLast(input)) EndEpoch("who held time starts again");
       rounds_.Apply(input);
     }
     if (quarantine_ != nullptr) quarantine_->EndMessages();

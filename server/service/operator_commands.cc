@@ -72,7 +72,7 @@ std::string OperatorCommands::RestartTime() {
   std::size_t others = 0;
   for (auto& [id, simulator] : world_.simulators()) {
     if (simulator.has_left()) continue;
-    if (!simulator.time().clock()) {
+    if (!simulator.time().clock() && simulator.alive()) {
       ++others;
       continue;
     }

@@ -46,7 +46,8 @@ void Silence::Update(const Simulators& simulators, std::int64_t now_ns) {
     holders.push_back({.id = id,
                        .is_last = time.told_until() == least && may_go_on,
                        .others_wait = least < greatest_alive,
-                       .told = {time.newest().nanoseconds(), simulator.told()}});
+                       // Without a clock nothing that it tells brings the world further.
+                       .told = {time.newest().nanoseconds(), time.clock() ? simulator.told() : 0}});
   }
   progress_.Update(holders, now_ns);
 }

@@ -2,9 +2,10 @@
 
 namespace collision::server {
 
-void Simulator::StartRun(std::uint64_t sender, std::uint32_t run, bool awaited) {
+void Simulator::StartRun(std::uint64_t sender, std::uint32_t run,
+                         const std::optional<PendingClock>& former) {
   agents_.Clear();
-  time_ = awaited ? SimulatorTime::After(time_) : SimulatorTime();
+  time_ = former ? SimulatorTime::After(time_, *former) : SimulatorTime();
   sender_clock_ = {};
   sender_ = sender;
   run_ = run;

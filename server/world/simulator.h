@@ -35,9 +35,10 @@ class Simulator {
   std::uint32_t incarnation() const { return incarnation_; }
   void SetIncarnation(std::uint32_t incarnation) { incarnation_ = incarnation; }
 
-  /// Starts a run of `sender`. Requires that the agents have been removed. `awaited`: the world's
-  /// time waits for its first clock, as it waited for the former run.
-  void StartRun(std::uint64_t sender, std::uint32_t run, bool awaited = false);
+  /// Starts a run of `sender`. Requires that the agents have been removed. `former`: where the
+  /// world's time waits for its first clock, in place of the former run; nullopt: it does not.
+  void StartRun(std::uint64_t sender, std::uint32_t run,
+                const std::optional<PendingClock>& former = {});
 
   /// The world's time begins anew, and it is not in it: no agents, no clock, no grant. Requires
   /// that the agents have been removed.
@@ -71,7 +72,8 @@ class Simulator {
   /// removed, or it never described any. A run that follows one which the world waited for, and
   /// ends before it has told an agent, is waited for like that one.
   bool has_left() const {
-    const bool is_over = time_.has_finished() || (!alive() && !time_.is_awaited());
+    const bool is_awaited = time_.is_awaited() && !released_;
+    const bool is_over = time_.has_finished() || (!alive() && !is_awaited);
     return is_over && agents_.size() == 0;
   }
 

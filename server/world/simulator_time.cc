@@ -9,13 +9,16 @@ Instant ToldUntil(Instant clock, const std::optional<Instant>& next) {
   return Instant::FromNanoseconds(next->nanoseconds() - 1);
 }
 
-SimulatorTime SimulatorTime::After(const SimulatorTime& former) {
+SimulatorTime SimulatorTime::After(const SimulatorTime& former, const PendingClock& stands_at) {
   SimulatorTime time;
-  if (const auto clock = former.stands_at()) {
-    time.former_ = {.clock = *clock, .next = former.clock_ ? former.next_ : former.former_->next};
-    time.Hear(*clock, former.told_until());
-  }
+  time.former_ = {.clock = stands_at.clock, .next = stands_at.next};
+  time.Hear(former.heard_, former.heard_until_);
   return time;
+}
+
+void SimulatorTime::ForgetFormer() {
+  if (newest_ == Instant::Always()) heard_ = heard_until_ = Instant::Always();
+  former_.reset();
 }
 
 void SimulatorTime::RecordStates(std::uint64_t sequence) {
@@ -77,6 +80,10 @@ Instant SimulatorTime::told_until() const {
 std::optional<Instant> SimulatorTime::stands_at() const {
   if (clock_) return clock_;
   return former_ ? std::optional(former_->clock) : std::nullopt;
+}
+
+PendingClock SimulatorTime::standing() const {
+  return clock_ ? PendingClock{.clock = *clock_, .next = next_} : *former_;
 }
 
 bool SimulatorTime::tells_next() const {

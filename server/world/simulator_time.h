@@ -38,9 +38,9 @@ class SimulatorTime {
  public:
   SimulatorTime() = default;
 
-  /// Of a run that follows one with this time, which the world waited for: it stands where that one
-  /// stood until it has told a clock of its own.
-  static SimulatorTime After(const SimulatorTime& former);
+  /// Of a run that follows one with this time, which the world waited for: it stands at `stands_at`
+  /// until it has told a clock of its own.
+  static SimulatorTime After(const SimulatorTime& former, const PendingClock& stands_at);
 
   void RecordStates(std::uint64_t sequence);
   void RecordDescriptions(std::uint64_t sequence);
@@ -94,6 +94,9 @@ class SimulatorTime {
   /// The clock that the world waits at: the newest in force, or that of its former run.
   std::optional<Instant> stands_at() const;
 
+  /// Likewise, with what it says of the next step. Requires that there is one.
+  PendingClock standing() const;
+
   /// The clock that it stands at says when its next step is.
   bool tells_next() const;
 
@@ -102,7 +105,7 @@ class SimulatorTime {
   bool is_awaited() const { return former_.has_value() && descriptions_seen_ == 0; }
 
   /// Nobody waits for it in place of its former run any more.
-  void ForgetFormer() { former_.reset(); }
+  void ForgetFormer();
 
   /// No step follows.
   bool has_finished() const { return next_ && next_->is_never(); }

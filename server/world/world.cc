@@ -151,6 +151,7 @@ void World::Join(Simulator* simulator, bool finishes) {
   if (finishes || time.newest() != Instant::Always()) return;
   const Instant granted = std::max(granted_, silence_.roster().greatest_grant());
   time.Join(std::max(granted, started_ ? now_ : Instant()), false);
+  simulator->Resume();
   simulator->agents().clearances().MarkGrantChanged();
 }
 
@@ -160,11 +161,14 @@ bool World::RunsInRounds() const {
          });
 }
 
+/// Time that a service before this one granted has begun already, with all that were awaited.
+bool World::HasBegun() const {
+  return started_ || silence_.roster().greatest_grant() != Instant::Always() ||
+         heard_granted_ != Instant::Always();
+}
+
 std::size_t World::SimulatorsToCome() const {
-  // Time that a service before this one granted has begun already, with all that were awaited.
-  const bool has_begun = started_ || silence_.roster().greatest_grant() != Instant::Always() ||
-                         heard_granted_ != Instant::Always();
-  if (!simulated_ || has_begun) return 0;
+  if (!simulated_ || HasBegun()) return 0;
   const auto with_clock = static_cast<std::size_t>(
       std::count_if(simulators_.begin(), simulators_.end(),
                     [](const auto& one) { return one.second.time().clock().has_value(); }));
@@ -237,23 +241,32 @@ void World::EndRun(Simulator* simulator, EndCause cause) {
 
 bool World::EpochIsOver() const {
   return simulated_ && started_ &&
-         std::none_of(simulators_.begin(), simulators_.end(),
-                      [](const auto& one) { return one.second.holds_time(); });
+         std::none_of(simulators_.begin(), simulators_.end(), [](const auto& one) {
+           const bool succeeded = !one.second.alive() && !one.second.contenders().empty();
+           return one.second.holds_time() && !succeeded;
+         });
 }
 
-bool World::SucceedsAll(std::uint64_t id, std::uint64_t sender, std::uint32_t run) const {
+bool World::SucceedsLast(std::uint64_t id, std::uint64_t sender, std::uint32_t run) const {
   const auto found = simulators_.find(id);
-  if (!simulated_ || !started_ || found == simulators_.end()) return false;
+  if (!simulated_ || !started_ || IsWaking() || found == simulators_.end()) return false;
   const Simulator& former = found->second;
-  if (!former.holds_time() || former.sender() == sender || run <= former.run()) return false;
-  if (RefusalOf(id, run)) return false;
-  return std::none_of(simulators_.begin(), simulators_.end(), [](const auto& one) {
-    return one.second.holds_time() && one.second.alive();
-  });
+  if (!former.holds_time() || former.alive() || former.sender() == sender) return false;
+  if (run <= former.run() || RefusalOf(id, run)) return false;
+  return std::none_of(simulators_.begin(), simulators_.end(),
+                      [id](const auto& one) { return one.first != id && one.second.holds_time(); });
 }
 
 void World::StartRun(Simulator* simulator, std::uint64_t sender, std::uint32_t run, bool held) {
-  simulator->StartRun(sender, run, simulated_ && held && !simulator->time().has_finished());
+  std::optional<PendingClock> former;
+  if (held && HasBegun() && !simulator->time().has_finished()) {
+    former = simulator->time().standing();
+    // What it told of later counts no more: nobody is to go beyond what all are granted.
+    if (former->next && granted_ != Instant::Always()) {
+      former->next = std::min(*former->next, granted_);
+    }
+  }
+  simulator->StartRun(sender, run, former);
 }
 
 void World::FinishEpoch() {
@@ -363,6 +376,11 @@ void World::SetClearance(const detection::AgentClearance& clearance) {
 
 void World::UpdateGrants() {
   if (!simulated_ || !started_) return;
+  // In place of its former run one holds what is granted until it tells what it does.
+  const bool holds = std::any_of(simulators_.begin(), simulators_.end(), [](const auto& one) {
+    return one.second.holds_time() && !one.second.time().clock();
+  });
+  if (holds) return ShareGrant();
   Instant until = numeric::AddRoundedDown(now_, grant_ahead_max_);
   for (const auto& [id, simulator] : simulators_) {
     until = std::min(until, simulator.agents().clearances().clear_until());

@@ -55,10 +55,11 @@ struct Claim {
 ///
 /// **Epochs** (simulated clock). When nobody holds time any more, the epoch is over: agents that
 /// were left behind are gone, and the next simulator's first clock begins another one, at whatever
-/// time it names up to `first_clock_max_s`. So it is when all who hold time are dead and one of
-/// them starts again. One that starts again beside others holds time where its former run stood,
-/// until it has told a clock of its own. Wall clock: a step of it that breaks the time begins
-/// another epoch at once; simulators and the descriptions of their agents stay.
+/// time it names up to `first_clock_max_s`. A dead simulator whose successor waits holds no time
+/// here, and the epoch is over, too, when the only one that holds time is dead and starts again.
+/// One that starts again beside others holds time where its former run stood, until it has told a
+/// clock of its own. Wall clock: a step of it that breaks the time begins another epoch at once;
+/// simulators and the descriptions of their agents stay.
 ///
 /// **Grants** (simulated clock). All may run until the least `clear_until` of all agents, at least
 /// to now + `temporal_resolution_s`, at most to now + `grant_ahead_max_s`; a grant is never
@@ -149,13 +150,13 @@ class World {
   const EndedRuns& ended_runs() const { return ended_runs_; }
   EndedRuns& ended_runs() { return ended_runs_; }
 
-  /// Simulated clock: it has begun, and nobody holds time any more.
+  /// Simulated clock: it has begun, and nobody holds time any more. Call it before successors take
+  /// over.
   bool EpochIsOver() const;
 
-  /// Simulated clock: all who hold time are dead, and a named message of this sender begins the
-  /// next run of one of them. Nobody is left who knows this time: the epoch is over before that
-  /// run.
-  bool SucceedsAll(std::uint64_t id, std::uint64_t sender, std::uint32_t run) const;
+  /// Simulated clock: the only one that holds time is dead, and a named message of this sender
+  /// begins its next run. Nobody is left who knows this time: the epoch is over before that run.
+  bool SucceedsLast(std::uint64_t id, std::uint64_t sender, std::uint32_t run) const;
 
   /// Brings `now` to the greatest clock in force: all that was told of this epoch counts.
   void FinishEpoch();
@@ -270,6 +271,7 @@ class World {
   Claim ClaimForNew(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                     const std::string* name);
   Instant LatestAllowed(const Simulator& simulator) const;
+  bool HasBegun() const;
   void BeginWallEpoch();
   Instant NewestClock() const;
   void RaiseInheritedGrant();

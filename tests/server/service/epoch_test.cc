@@ -87,8 +87,8 @@ TEST_F(EpochTest, AfterACrashTheSuccessorThatWaitsBeginsAnew) {
   EXPECT_EQ(epoch(), 1u);
   TakeEvents();
   daemon_.Step({first.End()}, 0.01);
-  daemon_.Step(second.Told(0), 0.01);
   EXPECT_EQ(epoch(), 2u);
+  daemon_.Step(second.Told(0), 0.01);
   EXPECT_EQ(daemon_.clearance(SimulatorId("alpha")).now_ns(), 0);
   Fly(second, 1);
   daemon_.Step(Joined(second.Removals(), {second.End()}), 0.01);

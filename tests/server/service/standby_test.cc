@@ -337,6 +337,25 @@ TEST_F(OneBesideAnotherTest, WhoStartedAgainWithoutAClockIsWaitedForAfterTheTake
   EXPECT_EQ(daemon_.status().now_ns(), 0);
 }
 
+// Goal:   what a program writes before this service has heard of its owner's end, and the other one
+//         after, counts here too.
+TEST_F(OneBesideAnotherTest, WhatASuccessorWritesTooEarlyWaitsForTheName) {
+  v1::SimulatorClock clock = ClockAfter("beta", 0, 2, 2);
+  clock.set_run(2);
+  daemon_.Step(
+      {From(12, Description("beta", 0, 2)), From(12, Description("beta", 1, 2)),
+       From(12, State(0, 0, 1), "beta", 2), From(12, State(1, 0, 2), "beta", 2), From(12, clock)},
+      0.01);
+  daemon_.Step({Removal(12, "beta", 1)}, 0.01);
+  EXPECT_EQ(daemon_.status().agents(), 4u);
+  daemon_.Step({other_.End()}, 0.01);
+  daemon_.Step({From(12, clock)}, 0.01);  // which it repeats
+  clock.set_clock_ns(kTenth);
+  clock.set_next_ns(2 * kTenth);
+  daemon_.Step(Joined(honest_.Told(1), {From(12, clock)}), 0.01);
+  EXPECT_EQ(daemon_.status().agents(), 3u);
+}
+
 TEST_F(OneBesideAnotherTest, WhoStartedAgainAndWasEvictedThereIsNotWaitedFor) {
   daemon_.Step({other_.End()}, 0.01);
   daemon_.Step({From(12, Description("beta", 0, 2))}, 0.01);
