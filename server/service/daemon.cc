@@ -207,6 +207,7 @@ class Daemon::Implementation {
     if (claim_.phase() != ClaimPhase::kStandby || is_past || world_.IsWaking()) return;
     if (services_.HearProgress(heard, detector_.agents(), world_.newest())) {
       publisher_.ForgetUndecided(Instant::FromNanoseconds(heard.now_ns()));
+      world_.ForgetLowerings();
       schedule_.Hasten();
     }
   }
@@ -362,8 +363,7 @@ class Daemon::Implementation {
   }
 
   void PublishStatus() {
-    if (claim_.phase() == ClaimPhase::kWaking) return;
-    if (schedule_.Take(world_)) SendStatus();
+    if (claim_.phase() != ClaimPhase::kWaking && schedule_.Take(world_)) SendStatus();
   }
 
   void SendStatus() {

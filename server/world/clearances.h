@@ -59,7 +59,7 @@ class Clearances {
 
   /// What lowered them and has not been acknowledged.
   const Lowerings& lowerings() const { return lowerings_; }
-  /// A new run or another epoch.
+  /// A new run or another epoch, or another service has told them.
   void ForgetLowerings() { lowerings_.Clear(); }
 
   /// By slot.

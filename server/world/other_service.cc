@@ -21,6 +21,10 @@ void World::HearClock(Simulator* simulator, Instant clock, Instant until) {
   heard_granted_ = std::max(heard_granted_, NewestClock());
 }
 
+void World::ForgetLowerings() {
+  for (auto& [id, simulator] : simulators_) simulator.agents().clearances().ForgetLowerings();
+}
+
 void World::TakeOver() {
   stands_by_ = false;
   for (auto& [id, simulator] : simulators_) {

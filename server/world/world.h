@@ -193,6 +193,11 @@ class World {
     if (simulated_) heard_granted_ = std::max(heard_granted_, granted);
   }
 
+  /// As a standby, once it knows all that the service in force knows: that one has told what
+  /// lowered clearances so far. What this one believes of before may be wrong, since a jump that
+  /// the other one has acknowledged is not written again.
+  void ForgetLowerings();
+
   /// A clock of this simulator has come that is taken in a later round (SimulatorTime::Hear()): the
   /// service in force has granted it.
   void HearClock(Simulator* simulator, Instant clock, Instant until);

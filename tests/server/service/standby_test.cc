@@ -384,6 +384,40 @@ TEST_F(OneBesideAnotherTest, WhatOneRemovesAheadOfTheOthersIsThereUntilThen) {
   }));
 }
 
+// Goal:   a breach that this service found before it was ready may be a jump that it has not heard
+//         of; one that it finds later is told.
+class BreachTest : public OneBesideAnotherTest, public testing::WithParamInterface<bool> {};
+
+TEST_P(BreachTest, PromisesAreVoidByWhatItFoundOnceItWasReady) {
+  HearOther({.granted_until_ns = 2 * kSecond});
+  const auto jump = [&](int step) {
+    std::vector<v1::Input> jumps = other_.Told(step);
+    for (v1::Input& input : jumps) {
+      if (!input.has_agent_states()) continue;
+      input.mutable_agent_states()->mutable_states(0)->mutable_position_m()->set_y(1000 * step);
+    }
+    daemon_.Step(Joined(honest_.Told(step), jumps), 0.01);
+  };
+  daemon_.Step({}, 9);  // It stood still, and is ready by later statuses.
+  jump(1);
+  jump(2);
+  EXPECT_GT(daemon_.counter("breaches"), 0u);
+  daemon_.Step({}, 1);
+  HearOther({.now_ns = 2 * kSecond, .granted_until_ns = 2 * kSecond, .agents = 4});
+  EXPECT_EQ(Extension(daemon_.status(), "standby"), "ready");
+  if (GetParam()) jump(3);
+  EndOther();
+  std::vector<v1::Input> last = Joined(honest_.ToldTo(2, 4), other_.ToldTo(2, 4));
+  std::erase_if(last, [](const v1::Input& input) { return input.has_agent_states(); });
+  for (v1::Input& input : last) {  // No state follows.
+    input.mutable_simulator_clock()->set_states_sequence(GetParam() ? 8 : 6);
+  }
+  daemon_.Step(last, 0.01);
+  const v1::Clearance clearance = daemon_.clearance(SimulatorId("beta"));
+  EXPECT_EQ(clearance.agents(0).void_from_ns() != kNeverNs, GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(BreachOnceReady, BreachTest, testing::Bool());
+
 // Goal:   what one simulator tells of times that never come leaves the others their room.
 TEST_F(OneBesideAnotherTest, AFloodOfOneTakesAnEighthOfWhatIsKept) {
   std::vector<v1::Input> flood;
