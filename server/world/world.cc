@@ -62,15 +62,12 @@ Simulator* World::Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
   return &simulators_.try_emplace(id, id, sender, run, name).first->second;
 }
 
-std::optional<std::string> World::RefusalOf(std::uint64_t id, std::uint32_t run) const {
-  const auto refusal = ended_runs_.Refusal(id, run);
-  return refusal ? refusal : silence_.roster().Refusal(id, run);
-}
-
 Claim World::ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                       const std::string* name) {
   Claim claim{.simulator = Find(id)};
-  if (const auto refusal = RefusalOf(id, run)) {
+  auto refusal = ended_runs_.Refusal(id, run);
+  if (!refusal) refusal = silence_.roster().Refusal(id, run);
+  if (refusal) {
     claim.reason = v1::REJECTED_OLD_RUN;
     claim.detail = *refusal;
     return claim;
@@ -252,14 +249,14 @@ bool World::SucceedsLast(std::uint64_t id, std::uint64_t sender, std::uint32_t r
   if (!simulated_ || !started_ || IsWaking() || found == simulators_.end()) return false;
   const Simulator& former = found->second;
   if (!former.holds_time() || former.alive() || former.sender() == sender) return false;
-  if (run <= former.run() || RefusalOf(id, run)) return false;
+  if (run <= former.run()) return false;
   return std::none_of(simulators_.begin(), simulators_.end(),
                       [id](const auto& one) { return one.first != id && one.second.holds_time(); });
 }
 
 void World::StartRun(Simulator* simulator, std::uint64_t sender, std::uint32_t run, bool held) {
   std::optional<PendingClock> former;
-  if (held && HasBegun() && !simulator->time().has_finished()) {
+  if (simulated_ && held && HasBegun() && !simulator->time().has_finished()) {
     former = simulator->time().standing();
     // What it told of later counts no more: nobody is to go beyond what all are granted.
     if (former->next && granted_ != Instant::Always()) {

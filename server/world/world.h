@@ -269,7 +269,6 @@ class World {
   void Validate() const;
 
  private:
-  std::optional<std::string> RefusalOf(std::uint64_t id, std::uint32_t run) const;
   bool HasRoomFor(std::uint64_t id) const;
   Simulator* Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                  const std::string& name);

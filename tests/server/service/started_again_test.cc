@@ -133,7 +133,8 @@ TEST_F(StartedAgainTest, WithAClockAndWithoutAgentsItsEndIsNobodysConcern) {
   daemon_.Step({From(22, clock)}, 0.01);
   daemon_.Step({Liveliness(22, "beta", false)}, 0.01);
   AlphaReaches(granted);
-  EXPECT_GT(granted_ns("alpha"), granted);
+  AlphaReaches(granted_ns("alpha"));
+  EXPECT_GT(granted_ns("alpha"), granted + 2 * kSecond);
 }
 
 TEST_F(StartedAgainTest, InTimeThatBeginsAnewItIsANewcomer) {
@@ -172,6 +173,17 @@ TEST(StartedAgainAlone, ItsNextRunBeginsTheNextEpoch) {
     EXPECT_EQ(daemon.status().stamp().epoch(), run);
     EXPECT_EQ(daemon.status().now_ns(), kSecond);
   }
+}
+
+// Goal:   nor does a service end an epoch that has only not heard yet who is there.
+TEST(StartedAgainAlone, AServiceThatStoodStillListensBeforeItEndsTheEpoch) {
+  v1::Config config = Config(v1::Clock::WAIT);
+  config.mutable_clock()->set_simulators_awaited(1);
+  ScriptedDaemon daemon(config);
+  daemon.Step({From(1, Description("alpha", 0)), From(1, ClockAfter("alpha", kSecond, 0, 1))});
+  daemon.Step({Liveliness(1, "alpha", false)}, 5);
+  daemon.Step({From(2, Description("alpha", 0, 2))}, 0.5);
+  EXPECT_EQ(daemon.status().stamp().epoch(), 1u);
 }
 
 TEST_F(StartedAgainTest, WhoHasJustAskedKeepsTheEpoch) {
@@ -225,6 +237,16 @@ TEST_F(StartedAgainReleaseTest, IsReleasedByItsOwnTime) {
   EXPECT_GT(granted_ns("alpha"), released);
 }
 
+TEST_F(StartedAgainReleaseTest, HoldsTimeAgainOnceItAsks) {
+  AlphaReaches(granted_ns("alpha"));
+  daemon_.Pass(8.1);
+  const std::int64_t released = granted_ns("alpha");
+  daemon_.Step({From(12, Asks("beta", 2))}, 0.01);
+  EXPECT_EQ(granted_ns("beta"), released);
+  AlphaReaches(released);
+  EXPECT_EQ(granted_ns("alpha"), released);
+}
+
 TEST_F(StartedAgainTest, WhoHadTakenItsLastStepIsNotWaitedFor) {
   v1::SimulatorClock last = ClockAfter("beta", granted_ns("alpha"), 0, 1);
   last.set_run(2);
@@ -245,6 +267,7 @@ TEST(StartedAgainBeforeTimeBegan, IsOneOfThoseAwaited) {
   daemon.Step({Liveliness(1, "alpha", false)}, 0.01);
   daemon.Step({From(11, Description("alpha", 0, 2))}, 0.01);
   EXPECT_EQ(daemon.status().granted_until_ns(), Instant::Always().nanoseconds());
+  EXPECT_EQ(daemon.status().now_ns(), 0);
 }
 
 // Goal:   the agents of a dead program that limited the others' time go with it, and that time is

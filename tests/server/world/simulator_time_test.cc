@@ -40,6 +40,33 @@ TEST(SimulatorTime, TheHighestSequenceCounts) {
   EXPECT_TRUE(time.Take());
 }
 
+// Goal:   a run stands where the one before it stood until it has told a clock of its own.
+TEST(SimulatorTime, ARunStandsWhereTheFormerOneStood) {
+  SimulatorTime former;
+  former.Offer({.clock = At(5), .next = At(8)});
+  EXPECT_TRUE(former.Take());
+  former.Hear(At(9), At(10));  // to be taken in a later round
+  SimulatorTime time = SimulatorTime::After(former, former.standing());
+  EXPECT_EQ(time.clock(), std::nullopt);
+  EXPECT_EQ(time.stands_at(), At(5));
+  EXPECT_EQ(time.told_until(), At(7));
+  EXPECT_TRUE(time.tells_next());
+  EXPECT_TRUE(time.is_awaited());
+  EXPECT_EQ(time.heard(), At(9));
+  EXPECT_EQ(time.heard_until(), At(10));
+  SimulatorTime nobodys = SimulatorTime::After(time, time.standing());
+  EXPECT_EQ(nobodys.told_until(), At(7)) << "nor has the next one told a clock";
+  nobodys.ForgetFormer();
+  EXPECT_EQ(nobodys.stands_at(), std::nullopt);
+  EXPECT_EQ(nobodys.heard(), Instant::Always());
+  EXPECT_EQ(nobodys.heard_until(), Instant::Always());
+  time.Offer({.clock = At(6)});
+  EXPECT_TRUE(time.Take());
+  EXPECT_EQ(time.stands_at(), At(6));
+  EXPECT_EQ(time.heard(), At(9)) << "the world has come so far";
+  EXPECT_FALSE(time.is_awaited());
+}
+
 TEST(SimulatorTime, AGrantIsNeverShortened) {
   SimulatorTime time;
   EXPECT_FALSE(time.granted());
