@@ -311,15 +311,15 @@ TEST(SilenceOnTheWallClock, WhoIsBackInTimeBeginsAnew) {
 
 TEST(SilenceOnTheWallClock, WhoStartsAgainAndDiesWithoutAgentsMakesRoom) {
   ScriptedDaemon daemon(Wall(0));
-  const auto clock = [&](std::uint64_t sender, std::uint32_t run) {
-    v1::SimulatorClock told = ClockOf("alpha", daemon.bus().wall_ns, run);
+  const auto clock = [](std::uint64_t sender, std::uint32_t run, std::int64_t clock_ns) {
+    v1::SimulatorClock told = ClockOf("alpha", clock_ns, run);
     told.set_lock_step(false);
     return From(sender, told);
   };
   daemon.Step(Joins(&daemon, "alpha", 1), 0.01);
-  daemon.Step({clock(1, 1)}, 0.01);
+  daemon.Step({clock(1, 1, daemon.bus().wall_ns)}, 0.01);
   daemon.Step({Liveliness(1, "alpha", false)}, 0.01);
-  daemon.Step({clock(2, 2)}, 0.01);
+  daemon.Step({clock(2, 2, Instant::Always().nanoseconds())}, 0.01);  // It is there.
   EXPECT_EQ(daemon.status().simulators_size(), 1);
   daemon.Step({Liveliness(2, "alpha", false)}, 0.01);
   EXPECT_EQ(daemon.status().simulators_size(), 0);
