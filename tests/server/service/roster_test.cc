@@ -132,6 +132,21 @@ TEST_F(RosterOfDaemonTest, AfterARestartNobodyIsGrantedTimeBeforeAllAreBack) {
   EXPECT_LE(contact.begin().latest_ns() - contact.begin().earliest_ns(), kSecond);
 }
 
+TEST_F(RosterOfDaemonTest, WhoStartedAgainAndHasToldNoClockIsOnFileWithWhatWasGrantedBefore) {
+  Start();
+  FlyTogether(kSecond);
+  const std::optional<Instant> granted = journal_->simulators().at(SimulatorId("beta")).granted;
+  ASSERT_TRUE(granted);
+  daemon_->Step({Liveliness(2, "beta", false)}, 0.01);
+  daemon_->Step({From(12, Description("beta", 0, 2))}, 0.01);
+  const JournalledSimulator kept = journal_->simulators().at(SimulatorId("beta"));
+  EXPECT_EQ(kept.run, 2u);
+  EXPECT_EQ(kept.granted, granted);
+  Start();
+  daemon_->Step(Told("alpha", alpha_ns_), 0.01);
+  EXPECT_FALSE(has_granted());
+}
+
 TEST_F(RosterOfDaemonTest, WithoutAJournalItIsGrantedTimePastTheContact) {
   // What the roster is for: the same flight as above.
   Start(false);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "idl/identity.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
 
@@ -235,6 +236,24 @@ TEST_F(StartedAgainReleaseTest, IsReleasedByItsOwnTime) {
   daemon_.Step({From(22, Description("beta", 0, 3))}, 0.01);
   AlphaReaches(released);
   EXPECT_GT(granted_ns("alpha"), released);
+}
+
+TEST_F(StartedAgainReleaseTest, OnceReleasedTheDeadHaveLeft) {
+  daemon_.Step({Liveliness(12, "beta", false)}, 0.01);
+  daemon_.Step({From(22, Asks("beta", 3))}, 0.01);
+  daemon_.Step({Liveliness(22, "beta", false)}, 0.01);
+  EXPECT_EQ(daemon_.status().simulators_size(), 2);
+  daemon_.Pass(9);
+  EXPECT_EQ(daemon_.status().simulators_size(), 1);
+}
+
+TEST_F(StartedAgainTest, ADeadOneDoesNotGoOnInTimeThatBeginsAnew) {
+  daemon_.Step({Liveliness(12, "beta", false)}, 0.01);
+  daemon_.Step({Command(1, v1::OPERATOR_RESTART_TIME)}, 0.01);
+  const std::string answer = Extension(daemon_.status(), "operator." + IdText(1));
+  EXPECT_TRUE(
+      answer.ends_with("with a higher run: 2; others, which had told no clock and go on: 0"))
+      << answer;
 }
 
 TEST_F(StartedAgainReleaseTest, HoldsTimeAgainOnceItAsks) {
