@@ -68,12 +68,11 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
     where.field = claim.reason == v1::REJECTED_OLD_RUN ? "run" : "simulator_id";
     where.detail = claim.detail;
     const bool contends = claim.reason == v1::REJECTED_ID_OWNED;
+    const bool succeeds = contends && where.run > claim.simulator->run();
     // It writes again if the service in force refuses it, which may have heard of its owner's end
     // already.
-    if (contends && world_.stands_by() && where.run > claim.simulator->run()) {
-      AwaitName(input, where.simulator_id);
-    }
-    if (!contends || claim.simulator->contenders().Add(input.sender())) {
+    if (succeeds && world_.stands_by()) AwaitName(input, where.simulator_id);
+    if (!contends || claim.simulator->contenders().Add(input.sender(), succeeds)) {
       rejections_.Add(where);
     } else {
       rejections_.Count(where);

@@ -1,9 +1,10 @@
 // Programs that claim the id of a simulator whose owner lives.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <set>
+#include <map>
 
 namespace collision::server {
 
@@ -15,10 +16,15 @@ inline constexpr std::size_t kContendersMax = 16;
 /// owner as long as that lives; then it writes everything again. One thread.
 class Contenders {
  public:
-  /// A message of `sender` was refused. Returns whether the sender must be told.
-  bool Add(std::uint64_t sender) {
-    if (senders_.contains(sender)) return false;
-    if (senders_.size() < kContendersMax) senders_.insert(sender);
+  /// A message of `sender` was refused; `succeeds`: its run is higher than the one in force.
+  /// Returns whether the sender must be told.
+  bool Add(std::uint64_t sender, bool succeeds) {
+    const auto known = senders_.find(sender);
+    if (known != senders_.end()) {
+      known->second = succeeds;
+      return false;
+    }
+    if (senders_.size() < kContendersMax) senders_.emplace(sender, succeeds);
     return true;
   }
 
@@ -30,8 +36,14 @@ class Contenders {
 
   bool empty() const { return senders_.empty(); }
 
+  /// One of them takes the id once its owner is gone; others have been replaced, and go on.
+  bool has_successor() const {
+    return std::any_of(senders_.begin(), senders_.end(),
+                       [](const auto& one) { return one.second; });
+  }
+
  private:
-  std::set<std::uint64_t> senders_;
+  std::map<std::uint64_t, bool> senders_;  ///< Whether each succeeds.
 };
 
 }  // namespace collision::server

@@ -239,7 +239,7 @@ void World::EndRun(Simulator* simulator, EndCause cause) {
 bool World::EpochIsOver() const {
   return simulated_ && started_ &&
          std::none_of(simulators_.begin(), simulators_.end(), [](const auto& one) {
-           const bool succeeded = !one.second.alive() && !one.second.contenders().empty();
+           const bool succeeded = !one.second.alive() && one.second.contenders().has_successor();
            return one.second.holds_time() && !succeeded;
          });
 }

@@ -176,6 +176,21 @@ TEST(StartedAgainAlone, ItsNextRunBeginsTheNextEpoch) {
   }
 }
 
+// Goal:   a program that has been replaced and goes on claims nothing: once its successor dies,
+//         that one is waited for.
+TEST(StartedAgainAlone, AProgramOfALowerRunIsNoSuccessor) {
+  v1::Config config = Config(v1::Clock::WAIT);
+  config.mutable_clock()->set_simulators_awaited(1);
+  ScriptedDaemon daemon(config);
+  for (const std::uint32_t run : {2, 1}) {
+    v1::SimulatorClock clock = ClockAfter("alpha", kSecond, 0, 1);
+    clock.set_run(run);
+    daemon.Step({From(run, Description("alpha", 0, run)), From(run, clock)}, 0.01);
+  }
+  daemon.Step({Liveliness(2, "alpha", false)}, 0.01);
+  EXPECT_EQ(daemon.status().stamp().epoch(), 1u);
+}
+
 // Goal:   nor does a service end an epoch that has only not heard yet who is there.
 TEST(StartedAgainAlone, AServiceThatStoodStillListensBeforeItEndsTheEpoch) {
   v1::Config config = Config(v1::Clock::WAIT);
