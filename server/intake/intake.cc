@@ -131,7 +131,7 @@ void Intake::DropUnproven() {
   if (dropped == 0) return;
   Log(spdlog::level::warn, "no such simulator",
       fmt::format("{} messages are dropped: for {} s no description or clock of their senders has "
-                  "named the simulator whose id they carry",
+                  "named the simulator whose id they carry, or its owner has not ended",
                   dropped, kUnprovenTime / 1'000'000'000));
 }
 

@@ -95,7 +95,8 @@ class Intake {
   /// refused, or it waits for the name of its sender. `name`: as in World::ClaimFor().
   Simulator* Claimed(const v1::Input& input, Refusal where, const std::string* name);
 
-  /// No simulator has this id, or its owner is gone: the input waits for a name that proves it.
+  /// No simulator has this id, or its owner is gone, or at a standby seems to live: the input waits
+  /// for a name that proves it.
   void AwaitName(const v1::Input& input, std::uint64_t simulator_id);
 
   /// A sender has named itself as this simulator: what it wrote before counts.

@@ -24,7 +24,8 @@ inline constexpr std::int64_t kUnprovenTime = 30'000'000'000;
 
 /// A waiting room. States and parts of shapes do not carry the name of their simulator, so their
 /// sender proves nothing by its id. They wait here until the same sender writes a description or a
-/// clock, which does, or until kUnprovenTime is over.
+/// clock, which does, or until kUnprovenTime is over. At a standby, all that a successor writes
+/// waits likewise until the former owner of its id is known to have ended.
 ///
 /// If the room is full, the sender that takes the most bytes of it loses its oldest input, so that
 /// one sender cannot crowd the others out. Pure bookkeeping: times are nanoseconds of the monotonic

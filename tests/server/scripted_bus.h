@@ -62,6 +62,18 @@ inline v1::Config Simulated() {
   return config;
 }
 
+/// Simulated time that begins with two simulators. The silent are named after 3 s, released after
+/// 8 s where they are, and then removed after 20 s.
+inline v1::Config OfTwoSimulators(v1::Clock::OnSilent on_silent) {
+  v1::Config config = Simulated();
+  config.mutable_clock()->set_simulators_awaited(2);
+  config.mutable_clock()->set_on_silent_simulator(on_silent);
+  if (on_silent == v1::Clock::RELEASE) config.mutable_clock()->set_release_after_s(8);
+  config.mutable_clock()->set_waiting_after_s(3);
+  config.mutable_clock()->set_remove_silent_after_s(20);
+  return config;
+}
+
 /// A daemon on a scripted bus.
 class ScriptedDaemon {
  public:

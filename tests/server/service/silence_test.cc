@@ -12,21 +12,11 @@ namespace {
 
 constexpr std::int64_t kTenth = 100'000'000;  ///< [ns]
 
-v1::Config Stepped(v1::Clock::OnSilent on_silent) {
-  v1::Config config = Simulated();
-  config.mutable_clock()->set_simulators_awaited(2);
-  config.mutable_clock()->set_on_silent_simulator(on_silent);
-  if (on_silent == v1::Clock::RELEASE) config.mutable_clock()->set_release_after_s(8);
-  config.mutable_clock()->set_waiting_after_s(3);
-  config.mutable_clock()->set_remove_silent_after_s(20);
-  return config;
-}
-
 /// Two simulators of one agent each, which meet: they touch from 1.5 s on, unless they change.
 class SilenceTest : public testing::Test {
  protected:
   explicit SilenceTest(v1::Clock::OnSilent on_silent = v1::Clock::WAIT)
-      : daemon_(Stepped(on_silent)) {
+      : daemon_(OfTwoSimulators(on_silent)) {
     daemon_.Step(Told("alpha", 0), 0.01);
     daemon_.Step(Told("beta", 0), 0.01);
   }

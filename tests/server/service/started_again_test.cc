@@ -20,22 +20,12 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kMinute = 60 * kSecond;
 
-v1::Config Config(v1::Clock::OnSilent on_silent) {
-  v1::Config config = Simulated();
-  config.mutable_clock()->set_simulators_awaited(2);
-  config.mutable_clock()->set_on_silent_simulator(on_silent);
-  if (on_silent == v1::Clock::RELEASE) config.mutable_clock()->set_release_after_s(8);
-  config.mutable_clock()->set_waiting_after_s(3);
-  config.mutable_clock()->set_remove_silent_after_s(20);
-  return config;
-}
-
 /// Two simulators without agents in each other's way, and with long steps; beta dies, and its next
 /// program has told nothing but its agent.
 class StartedAgainTest : public testing::Test {
  protected:
   explicit StartedAgainTest(v1::Clock::OnSilent on_silent = v1::Clock::WAIT)
-      : daemon_(Config(on_silent)) {
+      : daemon_(OfTwoSimulators(on_silent)) {
     for (const auto& [sender, name, x] :
          {std::tuple(1, "alpha", 0.0), std::tuple(2, "beta", 1e6)}) {
       v1::AgentState state = State(0, 0, 1);
@@ -158,7 +148,7 @@ TEST_F(StartedAgainTest, BesideADeadOneItHoldsThisTime) {
 // Goal:   nobody is left who knows this time, so the world begins anew, whether the clock of the
 //         new run comes with its agent or later.
 TEST(StartedAgainAlone, ItsNextRunBeginsTheNextEpoch) {
-  v1::Config config = Config(v1::Clock::WAIT);
+  v1::Config config = OfTwoSimulators(v1::Clock::WAIT);
   config.mutable_clock()->set_simulators_awaited(1);
   ScriptedDaemon daemon(config);
   daemon.Step({From(1, Description("alpha", 0)), From(1, ClockAfter("alpha", kSecond, 0, 1))});
@@ -179,7 +169,7 @@ TEST(StartedAgainAlone, ItsNextRunBeginsTheNextEpoch) {
 // Goal:   a program that has been replaced and goes on claims nothing: once its successor dies,
 //         that one is waited for.
 TEST(StartedAgainAlone, AProgramOfALowerRunIsNoSuccessor) {
-  v1::Config config = Config(v1::Clock::WAIT);
+  v1::Config config = OfTwoSimulators(v1::Clock::WAIT);
   config.mutable_clock()->set_simulators_awaited(1);
   ScriptedDaemon daemon(config);
   for (const std::uint32_t run : {2, 1}) {
@@ -193,7 +183,7 @@ TEST(StartedAgainAlone, AProgramOfALowerRunIsNoSuccessor) {
 
 // Goal:   nor does a service end an epoch that has only not heard yet who is there.
 TEST(StartedAgainAlone, AServiceThatStoodStillListensBeforeItEndsTheEpoch) {
-  v1::Config config = Config(v1::Clock::WAIT);
+  v1::Config config = OfTwoSimulators(v1::Clock::WAIT);
   config.mutable_clock()->set_simulators_awaited(1);
   ScriptedDaemon daemon(config);
   daemon.Step({From(1, Description("alpha", 0)), From(1, ClockAfter("alpha", kSecond, 0, 1))});
@@ -296,7 +286,7 @@ TEST_F(StartedAgainTest, WhoHadTakenItsLastStepIsNotWaitedFor) {
 }
 
 TEST(StartedAgainBeforeTimeBegan, IsOneOfThoseAwaited) {
-  ScriptedDaemon daemon(Config(v1::Clock::WAIT));
+  ScriptedDaemon daemon(OfTwoSimulators(v1::Clock::WAIT));
   daemon.Step({From(1, Description("alpha", 0)), From(1, ClockAfter("alpha", kSecond, 0, 1))});
   daemon.Step({Liveliness(1, "alpha", false)}, 0.01);
   daemon.Step({From(11, Description("alpha", 0, 2))}, 0.01);
@@ -307,7 +297,7 @@ TEST(StartedAgainBeforeTimeBegan, IsOneOfThoseAwaited) {
 // Goal:   the agents of a dead program that limited the others' time go with it, and that time is
 //         granted no further all the same.
 TEST(StartedAgainNearOthers, TheirGrantStands) {
-  ScriptedDaemon daemon(Config(v1::Clock::WAIT));
+  ScriptedDaemon daemon(OfTwoSimulators(v1::Clock::WAIT));
   for (const auto& [sender, name, x] : {std::tuple(1, "alpha", -5.0), std::tuple(2, "beta", 5.0)}) {
     v1::AgentState state = State(0, 0, 1);
     state.mutable_position_m()->set_x(x);
