@@ -204,6 +204,21 @@ Flown Testbed::Finish() {
   return FinishNow();
 }
 
+/// The judge tells contacts by names, which simulators tell themselves: a listener on a bad network
+/// may discover a simulator later than it hears of its contacts.
+void Testbed::AwaitNames() {
+  const auto knows_drones_of = [](const Heard& heard, Party party) {
+    const auto& names = heard.observations.names;
+    return kDronesOfEach <= std::count_if(names.begin(), names.end(), [&](const auto& name) {
+             return name.simulator() == kNames[party];
+           });
+  };
+  const auto knows_all = [&](const Heard& heard) {
+    return knows_drones_of(heard, kAlpha) && knows_drones_of(heard, kBeta);
+  };
+  if (!Await(knows_all)) throw std::runtime_error("some drones were not described" + Logs());
+}
+
 /// The listener has heard them all.
 void Testbed::AwaitPrinted() {
   std::uint64_t newest = 0;
@@ -216,6 +231,7 @@ void Testbed::AwaitPrinted() {
 }
 
 Flown Testbed::FinishNow() {
+  AwaitNames();
   Flown flown;
   const auto end = [&](Party party) {
     if (!processes_.at(party)) return;

@@ -105,6 +105,7 @@ class Testbed {
   /// The ends of all logs, for the text of a failure.
   std::string Logs() const;
   void AwaitQuiet();
+  void AwaitNames();    ///< Of all drones, by the listener.
   void AwaitPrinted();  ///< By the monitor: the newest contact.
   std::int64_t end_ns() const;
 
