@@ -40,6 +40,7 @@ void World::TakeOver() {
     roster.push_back({.id = id, .run = simulator.run(), .name = simulator.name(), .granted = {}});
   }
   silence_.AwaitRoster(roster, monotonic_ns());
+  if (started_) LowerGrant(std::max(NewestClock(), heard_granted_));
   promised_from_ = std::max({granted_, heard_granted_, Instant()});
   RaiseInheritedGrant();
   ShareGrant();
@@ -72,6 +73,15 @@ Instant World::NewestClock() const {
   }
   if (slowest.is_never()) return newest;
   return std::min(newest, numeric::AddRoundedUp(slowest, grant_ahead_max_));
+}
+
+/// To a time that lies ahead, so that the round has an end. Requires that nobody was told of what
+/// is taken back.
+void World::LowerGrant(Instant until) {
+  until = std::max(until, numeric::AddRoundedDown(now_, temporal_resolution_));
+  if (until >= granted_) return;
+  granted_ = until;
+  for (auto& [id, simulator] : simulators_) simulator.time().LowerGrant(until);
 }
 
 /// A grant is at most `grant_ahead_max_s` ahead of now, and now never ahead of what a clock told

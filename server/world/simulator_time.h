@@ -83,8 +83,14 @@ class SimulatorTime {
   /// Brings into force the newest clock before which everything has arrived. False: there is none.
   bool Take();
 
-  /// Extends the grant to `until`; a grant is never shortened. True if it has changed.
+  /// Extends the grant to `until`; one that was published is never shortened. True if it has
+  /// changed.
   bool Grant(Instant until);
+
+  /// Shortens the grant, which nobody was told, to `until`.
+  void LowerGrant(Instant until) {
+    if (granted_) granted_ = std::min(*granted_, until);
+  }
 
   /// All that its simulator has to tell up to and including this time has arrived: the time before
   /// its next step or, where it does not say when that is, its clock. Never(): no step follows.

@@ -377,7 +377,7 @@ void World::UpdateGrants() {
   const bool holds = std::any_of(simulators_.begin(), simulators_.end(), [](const auto& one) {
     return one.second.holds_time() && !one.second.time().clock();
   });
-  if (holds) return ShareGrant();
+  if (holds) return GrantToAll();
   Instant until = numeric::AddRoundedDown(now_, grant_ahead_max_);
   for (const auto& [id, simulator] : simulators_) {
     until = std::min(until, simulator.agents().clearances().clear_until());
@@ -385,10 +385,20 @@ void World::UpdateGrants() {
   // No simulator may run past the end of a contact before its states are in.
   until = std::max(until, numeric::AddRoundedDown(now_, temporal_resolution_));
   granted_ = std::max(granted_, until);
-  ShareGrant();
+  GrantToAll();
 }
 
 void World::ShareGrant() {
+  if (stands_by_ && started_) {
+    for (const auto& [id, simulator] : simulators_) {
+      const SimulatorTime& time = simulator.time();
+      if (time.clock() && !time.granted()) LowerGrant(*time.clock());
+    }
+  }
+  GrantToAll();
+}
+
+void World::GrantToAll() {
   if (!simulated_ || granted_ == Instant::Always()) return;
   for (auto& [id, simulator] : simulators_) {
     if (!simulator.time().clock() || !simulator.time().Grant(granted_)) continue;

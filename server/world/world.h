@@ -210,7 +210,9 @@ class World {
   /// This service serves from now on, in place of the one beside which it stood by. Simulated
   /// clock: time stands until each simulator that lives and holds time has told a clock that
   /// follows this service. Until then it may act on a grant of which this service has not heard;
-  /// that is at most `grant_ahead_max_s` beyond the clocks, and promises count from there.
+  /// that is at most `grant_ahead_max_s` beyond the clocks, and promises count from there. What
+  /// this service has computed beyond what it has heard is granted to nobody: it may not know all
+  /// who hold time.
   void TakeOver();
 
   /// Simulators that are there and whose newest clock names this service, or none; 0 while it
@@ -255,7 +257,9 @@ class World {
   /// samples where the grant has grown.
   void UpdateGrants();
 
-  /// The same with the time that is granted already, for those who have come since.
+  /// The same with the time that is granted already, for those who have come since. A service that
+  /// stands by may have computed it without them, though the one in force knew them: it is then
+  /// lowered to their clocks.
   void ShareGrant();
 
   /// The greatest time granted in this epoch; Always(): none was.
@@ -279,6 +283,8 @@ class World {
   void BeginWallEpoch();
   Instant NewestClock() const;
   void RaiseInheritedGrant();
+  void GrantToAll();
+  void LowerGrant(Instant until);
 
   const bool simulated_;
   const double skew_;

@@ -70,6 +70,8 @@ TEST_F(StandbyTest, OneThatStoodStillFindsItselfReplaced) {
   ASSERT_NO_FATAL_FAILURE(AwaitEvent("possible"));
   first_->Signal(SIGSTOP);
   ExpectTakeOver();
+  // Before anybody has heard the successor the world would still be this one's.
+  EXPECT_TRUE(monitor_->WaitForOutput("another service speaks")) << monitor_->err();
   first_->Signal(SIGCONT);
   EXPECT_TRUE(first_->WaitForOutput("goes before term 1: starts afresh, to stand by"))
       << first_->err();
