@@ -304,7 +304,7 @@ class Daemon::Implementation {
   void MoveOn(bool inputs) {
     if (!claim_.works()) return;
     if (world_.awaits_others() &&
-        services_.MayBegin(world_.agents_in_time(), world_.monotonic_ns())) {
+        services_.MayBegin(world_.agents_in_time(), world_.stands_by(), world_.monotonic_ns())) {
       world_.Begin();
     }
     if (!world_.RunsInRounds()) {

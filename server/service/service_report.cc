@@ -70,12 +70,13 @@ void ServiceReport::LogTakeOver(std::int64_t now_ns) const {
   }
 }
 
-bool ServiceReport::MayBegin(std::optional<std::size_t> agents, std::int64_t now_ns) {
+bool ServiceReport::MayBegin(std::optional<std::size_t> agents, bool stands_by,
+                             std::int64_t now_ns) {
   if (!agents) return false;
   if (!awaits_since_ns_) awaits_since_ns_ = now_ns;
-  const bool has_begun =
-      served_.service_id() != 0 && served_.granted_until_ns() != Instant::Always().nanoseconds();
-  const bool knows_all = *agents > 0 && has_begun && *agents >= served_.agents();
+  const bool has_begun = served_.granted_until_ns() != Instant::Always().nanoseconds();
+  const bool knows_all = *agents > 0 && served_.service_id() != 0 && (has_begun || !stands_by) &&
+                         *agents >= served_.agents();
   if (!knows_all && now_ns - *awaits_since_ns_ < kAwaitOthersNs) return false;
   awaits_since_ns_.reset();
   return true;

@@ -45,10 +45,11 @@ class ServiceReport {
   /// whether this one was not ready.
   void LogTakeOver(std::int64_t now_ns) const;
 
-  /// Whether time may begin here as it has in the service that serves, or served: it has told since
-  /// that it granted some, as many `agents` of simulators that hold time are known here as there,
-  /// but at least one, or the first of these simulators since kAwaitOthersNs.
-  bool MayBegin(std::optional<std::size_t> agents, std::int64_t now_ns);
+  /// Whether time may begin here as it has in the service that serves, or served: as many `agents`
+  /// of simulators that hold time are known here as there, but at least one, or the first of these
+  /// simulators since kAwaitOthersNs. While this one `stands_by` the other one must have begun: a
+  /// status from before then does not count all.
+  bool MayBegin(std::optional<std::size_t> agents, bool stands_by, std::int64_t now_ns);
 
   /// Whether the service that serves, or served, has the kind of clock that this one has. From one
   /// that has the other kind no simulator could go on to this one.

@@ -94,5 +94,14 @@ TEST_F(StandbyOfDaemonTest, TimeBeginsHereAfterItHasBegunThere) {
   EXPECT_EQ(daemon_.status().now_ns(), kTenth);
 }
 
+// Goal:   nobody is waited for after a take-over from a service in which time had not begun.
+TEST_F(StandbyOfDaemonTest, TimeBeginsAtOnceAfterATakeOverFromAnIdleService) {
+  HearOther({.granted_until_ns = Instant::Always().nanoseconds()});
+  EndOther();
+  const Voyage run{.in_rounds = true};
+  daemon_.Step(run.ToldTo(kOwn, 0), 0.01);
+  EXPECT_GT(daemon_.status().granted_until_ns(), 0);
+}
+
 }  // namespace
 }  // namespace collision::server
