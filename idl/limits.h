@@ -79,11 +79,13 @@ inline constexpr int kContactsForLateJoiners = 1024;
 
 // Lengths of texts [bytes] and of lists, as in collision.idl.
 
-inline constexpr std::size_t kNameMax = 64;             ///< Of worlds, simulators and agents.
-inline constexpr std::size_t kRefusedFieldMax = 64;     ///< Rejection::field.
+inline constexpr std::size_t kNameMax = 64;          ///< Of worlds, simulators, agents, assemblies.
+inline constexpr std::size_t kRefusedFieldMax = 64;  ///< Rejection::field.
 inline constexpr std::size_t kRefusalDetailMax = 256;   ///< Rejection::detail.
 inline constexpr std::size_t kExtensionValueMax = 256;  ///< KeyValue::value.
-inline constexpr int kDescriptionExtensionsMax = 16;    ///< AgentDescription::extensions.
+inline constexpr int kTagsMax = 16;                     ///< AgentDescription::tags.
+inline constexpr std::size_t kTagKeyMax = 32;           ///< Tag::key.
+inline constexpr std::size_t kTagValueMax = 64;         ///< Tag::value.
 inline constexpr int kEventExtensionsMax = 8;           ///< CollisionEvent::extensions.
 inline constexpr int kReportRefusalsMax = 16;           ///< SimulatorReport::refusals.
 inline constexpr int kStatusExtensionsMax = 32;         ///< ServiceStatus::extensions.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace collision::client {
 
@@ -28,6 +29,13 @@ struct AgentId {
   friend auto operator<=>(const AgentId&, const AgentId&) = default;
 };
 
+/// A word about an agent.
+struct Tag {
+  std::string key;
+  std::string value;
+  friend bool operator==(const Tag&, const Tag&) = default;
+};
+
 /// What an agent declares about itself: valid for every state until it is described anew.
 ///
 /// The service derives everything from these bounds. A bound that the motion exceeds makes the
@@ -44,6 +52,12 @@ struct AgentDescription {
   double time_step_s = 0;    ///< Step h of an Euler integrator; 0: the motion is continuous.
   std::uint32_t group = 1;   ///< Bits of the groups that this agent belongs to.
   std::uint32_t mask = ~0u;  ///< Bits of the groups that it can collide with.
+  /// Agents of this simulator that belong together, such as the links of an arm; at most 64 bytes,
+  /// empty: none.
+  std::string assembly = {};
+  /// Words about it for those who look, "kind" "forklift": at most 16, with different keys of 1 to
+  /// 32 bytes and values of at most 64. They stand in every event of the agent.
+  std::vector<Tag> tags = {};
   /// Its shape (client/api/shape.h), inside the ball of `radius_m`; null: the ball itself.
   std::shared_ptr<const Shape> shape = nullptr;
 };

@@ -73,6 +73,29 @@ void CheckHolds(double radius, const Shape& shape) {
   Refuse("radius_m", value, text);
 }
 
+void CheckText(const char* field, const std::string& text, std::size_t least, std::size_t most) {
+  if (text.size() < least || text.size() > most) {
+    Refuse(field, "\"" + text + "\"",
+           std::to_string(least) + " to " + std::to_string(most) + " bytes");
+  }
+  const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (std::any_of(text.begin(), text.end(), control)) {
+    Refuse(field, "a control character", "printable characters");
+  }
+}
+
+void CheckTags(const std::vector<Tag>& tags) {
+  if (tags.size() > wire::kTagsMax) {
+    Refuse("tags", std::to_string(tags.size()), "0 to " + std::to_string(wire::kTagsMax));
+  }
+  for (auto tag = tags.begin(); tag != tags.end(); ++tag) {
+    CheckText("tags.key", tag->key, 1, wire::kTagKeyMax);
+    CheckText("tags.value", tag->value, 0, wire::kTagValueMax);
+    const auto same = [&tag](const Tag& other) { return other.key == tag->key; };
+    if (std::any_of(tags.begin(), tag, same)) Refuse("tags.key", "\"" + tag->key + "\"", "once");
+  }
+}
+
 void RequireIdentifier(const char* field, const std::string& name) {
   if (wire::IsName(name)) return;
   throw std::runtime_error(std::string(field) + ": \"" + name + "\", allowed: " + wire::kNameText);
@@ -81,14 +104,9 @@ void RequireIdentifier(const char* field, const std::string& name) {
 }  // namespace
 
 void Validate(const AgentDescription& description) {
-  const std::string& name = description.name;
-  const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  if (name.empty() || name.size() > kNameMax) {
-    Refuse("name", "\"" + name + "\"", "1 to 64 bytes");
-  }
-  if (std::any_of(name.begin(), name.end(), control)) {
-    Refuse("name", "a control character", "printable characters");
-  }
+  CheckText("name", description.name, 1, kNameMax);
+  CheckText("assembly", description.assembly, 0, kNameMax);
+  CheckTags(description.tags);
   CheckNumber("radius_m", description.radius_m, 0, kRadiusMax);
   CheckNumber("acceleration_max_m_s2", description.acceleration_max_m_s2, 0, kAccelerationMax);
   CheckNumber("angular_acceleration_max_rad_s2", description.angular_acceleration_max_rad_s2,

@@ -75,6 +75,7 @@ void GetList(const Sequence& from, List* list) {
 FIELDS(Vector3, VALUE(x) VALUE(y) VALUE(z))
 FIELDS(Quaternion, VALUE(w) VALUE(x) VALUE(y) VALUE(z))
 FIELDS(KeyValue, TEXT(key) TEXT(value))
+FIELDS(Tag, TEXT(key) TEXT(value))
 FIELDS(TimeBracket, VALUE(earliest_ns) VALUE(latest_ns))
 FIELDS(Bracket, VALUE(lower) VALUE(upper))
 FIELDS(AgentId, VALUE(simulator_id) VALUE(run) VALUE(slot) VALUE(generation))
@@ -86,7 +87,8 @@ FIELDS(AgentDescription,
        TEXT(agent_name) VALUE(radius_m)
        VALUE(acceleration_max_m_s2) VALUE(angular_acceleration_max_rad_s2) VALUE(speed_max_m_s)
        VALUE(time_step_s) VALUE(group) VALUE(mask) HASH(shape_hash)
-       LIST(extensions, wire::kDescriptionExtensionsMax))
+       TEXT(assembly)
+       LIST(tags, wire::kTagsMax))
 
 FIELDS(ShapePart,
        VALUE(simulator_id) VALUE(shape) VALUE(part) HASH(content_hash) VALUE(parts) VALUE(run)

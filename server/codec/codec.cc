@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include "idl/identity.h"
 #include "idl/limits.h"
@@ -89,10 +91,32 @@ std::optional<Refusal> CheckIdentity(const v1::SimulatorClock& clock) {
   return CheckName(clock.simulator_id(), clock.simulator_name(), At(clock));
 }
 
+namespace {
+
+void CheckTags(const v1::AgentDescription& wire, FieldCheck* check) {
+  std::set<std::string_view> keys;
+  for (const v1::Tag& tag : wire.tags()) {
+    check->Text("tags.key", tag.key(), wire::kTagKeyMax);
+    check->Text("tags.value", tag.value(), wire::kTagValueMax);
+    if (tag.key().empty()) {
+      check->Refuse(v1::REJECTED_OUT_OF_RANGE, "tags.key",
+                    "0 bytes; allowed: 1 to " + std::to_string(wire::kTagKeyMax));
+    }
+    if (!keys.insert(tag.key()).second) {
+      check->Refuse(v1::REJECTED_OUT_OF_RANGE, "tags.key",
+                    "\"" + tag.key().substr(0, wire::kTagKeyMax) + "\" twice; allowed: once");
+    }
+  }
+}
+
+}  // namespace
+
 Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire) {
   FieldCheck check(At(wire));
   check.Integer("slot", wire.slot(), 0, wire::kSlotMax);
   check.Text("agent_name", wire.agent_name(), wire::kNameMax);
+  check.Text("assembly", wire.assembly(), wire::kNameMax);
+  CheckTags(wire, &check);
   check.Number("radius_m", wire.radius_m(), 0, wire::kRadiusMax);
   check.Number("acceleration_max_m_s2", wire.acceleration_max_m_s2(), 0, wire::kAccelerationMax);
   check.Number("angular_acceleration_max_rad_s2", wire.angular_acceleration_max_rad_s2(),

@@ -32,6 +32,9 @@ TEST(Limits, LengthsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("StandingRefusal", "field"), wire::kRefusedFieldMax);
   EXPECT_EQ(BoundOf("StandingRefusal", "detail"), wire::kRefusalDetailMax);
   EXPECT_EQ(BoundOf("Rejection", "detail"), wire::kRefusalDetailMax);
+  EXPECT_EQ(BoundOf("AgentDescription", "assembly"), wire::kNameMax);
+  EXPECT_EQ(BoundOf("Tag", "key"), wire::kTagKeyMax);
+  EXPECT_EQ(BoundOf("Tag", "value"), wire::kTagValueMax);
   EXPECT_EQ(BoundOf("KeyValue", "value"), wire::kExtensionValueMax);
   EXPECT_EQ(BoundOf("ServiceStatus", "broad_phase"), wire::kStatusBroadPhaseMax);
   EXPECT_EQ(BoundOf("ServiceStatus", "broad_phase_why"), wire::kStatusBroadPhaseWhyMax);
@@ -44,7 +47,7 @@ TEST(Limits, CountsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("ServiceStatus", "simulators"), count(wire::kStatusSimulatorsMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "counters"), count(wire::kStatusCountersMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "left_out"), count(wire::kStatusLeftOutMax));
-  EXPECT_EQ(BoundOf("AgentDescription", "extensions"), count(wire::kDescriptionExtensionsMax));
+  EXPECT_EQ(BoundOf("AgentDescription", "tags"), count(wire::kTagsMax));
   EXPECT_EQ(BoundOf("CollisionEvent", "extensions"), count(wire::kEventExtensionsMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "extensions"), count(wire::kStatusExtensionsMax));
   EXPECT_EQ(BoundOf("SimulatorReport", "refusals"), count(wire::kReportRefusalsMax));

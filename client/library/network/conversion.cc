@@ -17,6 +17,12 @@ TimeBracket BracketOf(const v1::TimeBracket& bracket) {
   return {bracket.earliest_ns(), bracket.latest_ns()};
 }
 
+std::vector<Tag> TagsOf(const google::protobuf::RepeatedPtrField<v1::Tag>& message) {
+  std::vector<Tag> tags;
+  for (const v1::Tag& tag : message) tags.push_back({tag.key(), tag.value()});
+  return tags;
+}
+
 SimulatorStatus SimulatorStatusOf(const v1::SimulatorStatus& message) {
   SimulatorStatus status;
   status.simulator = message.simulator_id();
@@ -44,6 +50,12 @@ v1::AgentDescription ToMessage(const AgentDescription& description) {
   message.set_time_step_s(description.time_step_s);
   message.set_group(description.group);
   message.set_mask(description.mask);
+  message.set_assembly(description.assembly);
+  for (const Tag& tag : description.tags) {
+    v1::Tag& added = *message.add_tags();
+    added.set_key(tag.key);
+    added.set_value(tag.value);
+  }
   if (description.shape) message.set_shape_hash(description.shape->hash());
   return message;
 }
@@ -104,6 +116,8 @@ DescribedAgent FromMessage(const v1::AgentDescription& message) {
   agent.description.time_step_s = message.time_step_s();
   agent.description.group = message.group();
   agent.description.mask = message.mask();
+  agent.description.assembly = message.assembly();
+  agent.description.tags = TagsOf(message.tags());
   agent.shape_hash = message.shape_hash();
   return agent;
 }

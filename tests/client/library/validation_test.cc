@@ -46,6 +46,30 @@ void CheckLimits(const Value& good, const std::string& field, double least, doub
   }
 }
 
+TEST(Validation, AssemblyAndTagsAreShortAndKeysDiffer) {
+  const AgentDescription good{
+      .name = "ball",
+      .assembly = std::string(kNameMax, 'x'),
+      .tags = std::vector<Tag>(1, {std::string(wire::kTagKeyMax, 'k'), std::string(64, 'v')})};
+  EXPECT_EQ(Complaint(good), "");
+  const auto complaint = [&good](const std::function<void(AgentDescription*)>& spoil) {
+    AgentDescription bad = good;
+    spoil(&bad);
+    return Complaint(bad).substr(0, Complaint(bad).find(':'));
+  };
+  using D = AgentDescription;
+  EXPECT_EQ(complaint([](D* d) { d->assembly += 'x'; }), "assembly");
+  EXPECT_EQ(complaint([](D* d) { d->assembly = "a\nb"; }), "assembly");
+  EXPECT_EQ(complaint([](D* d) { d->tags[0].key += 'k'; }), "tags.key");
+  EXPECT_EQ(complaint([](D* d) { d->tags[0].key.clear(); }), "tags.key");
+  EXPECT_EQ(complaint([](D* d) { d->tags[0].value += 'v'; }), "tags.value");
+  EXPECT_EQ(complaint([](D* d) { d->tags.push_back(d->tags[0]); }), "tags.key");
+  EXPECT_EQ(complaint([](D* d) {
+              for (int i = 0; i < wire::kTagsMax; ++i) d->tags.push_back({std::to_string(i), ""});
+            }),
+            "tags");
+}
+
 TEST(Validation, DescriptionsAreLimited) {
   using D = AgentDescription;
   const D good{.name = "ball"};

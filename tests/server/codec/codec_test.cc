@@ -77,6 +77,30 @@ TEST(Codec, RefusesBadStatesByField) {
   }
 }
 
+// Goal:   words about an agent that the wire could not carry in its events are refused by field.
+// Method: one good description, spoiled in one place at a time.
+TEST(Codec, RefusesAssembliesAndTagsThatEventsCannotCarry) {
+  v1::AgentDescription good = Description("a", 1);
+  good.set_assembly(std::string(wire::kNameMax, 'x'));
+  good.add_tags()->set_key(std::string(wire::kTagKeyMax, 'k'));
+  good.mutable_tags(0)->set_value(std::string(wire::kTagValueMax, 'v'));
+  EXPECT_TRUE(std::holds_alternative<detection::AgentDeclaration>(DecodeDescription(good)));
+  const auto field_of = [&good](const std::function<void(v1::AgentDescription*)>& spoil) {
+    v1::AgentDescription bad = good;
+    spoil(&bad);
+    const auto decoded = DecodeDescription(bad);
+    const Refusal* refusal = std::get_if<Refusal>(&decoded);
+    return refusal == nullptr ? "" : refusal->field;
+  };
+  using D = v1::AgentDescription;
+  EXPECT_EQ(field_of([](D* d) { d->mutable_assembly()->push_back('x'); }), "assembly");
+  EXPECT_EQ(field_of([](D* d) { d->mutable_tags(0)->mutable_key()->push_back('k'); }), "tags.key");
+  EXPECT_EQ(field_of([](D* d) { d->mutable_tags(0)->clear_key(); }), "tags.key");
+  EXPECT_EQ(field_of([](D* d) { *d->add_tags() = d->tags(0); }), "tags.key") << "twice";
+  EXPECT_EQ(field_of([](D* d) { d->mutable_tags(0)->mutable_value()->push_back('v'); }),
+            "tags.value");
+}
+
 // Goal:   the ends of every range still pass.
 // Method: values at the limits, all at once.
 TEST(Codec, AcceptsTheLimits) {
