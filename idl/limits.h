@@ -54,6 +54,17 @@ inline constexpr std::size_t kShapeHullPointsMax = std::size_t{1} << 20;
 /// [ns] A service not heard of for so long counts as gone, and what it promised has expired.
 inline constexpr std::int64_t kServiceLease = 2'000'000'000;
 
+// Watches (Watch). A simulator heeds the newest of so many watchers, and ignores a period or lease
+// out of range: those who look cost it a bounded number of states.
+
+inline constexpr std::size_t kWatchersMax = 8;
+inline constexpr std::int64_t kWatchPeriodMin = 20'000'000;         ///< [ns] 50 a second.
+inline constexpr std::int64_t kWatchPeriodMax = 3'600'000'000'000;  ///< [ns]
+inline constexpr std::int64_t kWatchLeaseMax = 60'000'000'000;      ///< [ns]
+
+/// The revision of the wire that this program speaks, as in collision.idl.
+inline constexpr std::uint32_t kWireRevision = 2;
+
 // Histories [samples].
 
 /// Contacts that the service's writer keeps for a reader that has stopped, and a reader for a
@@ -80,12 +91,16 @@ inline constexpr int kContactsForLateJoiners = 1024;
 // Lengths of texts [bytes] and of lists, as in collision.idl.
 
 inline constexpr std::size_t kNameMax = 64;          ///< Of worlds, simulators, agents, assemblies.
+inline constexpr std::size_t kLabelMax = 64;         ///< Of frames, epochs, versions.
 inline constexpr std::size_t kRefusedFieldMax = 64;  ///< Rejection::field.
 inline constexpr std::size_t kRefusalDetailMax = 256;   ///< Rejection::detail.
 inline constexpr std::size_t kExtensionValueMax = 256;  ///< KeyValue::value.
 inline constexpr int kTagsMax = 16;                     ///< AgentDescription::tags.
 inline constexpr std::size_t kTagKeyMax = 32;           ///< Tag::key.
 inline constexpr std::size_t kTagValueMax = 64;         ///< Tag::value.
+inline constexpr int kHelloExtensionsMax = 16;          ///< ServiceHello, SimulatorHello.
+inline constexpr int kRegionsMax = 64;                  ///< ServiceHello::regions.
+inline constexpr int kWatchAgentsMax = 64;              ///< Watch::agents.
 inline constexpr int kEventExtensionsMax = 8;           ///< CollisionEvent::extensions.
 inline constexpr int kReportRefusalsMax = 16;           ///< SimulatorReport::refusals.
 inline constexpr int kStatusExtensionsMax = 32;         ///< ServiceStatus::extensions.

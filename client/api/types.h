@@ -36,6 +36,14 @@ struct Tag {
   friend bool operator==(const Tag&, const Tag&) = default;
 };
 
+/// What an agent is called, as it was described last, also after it has left.
+struct AgentLabel {
+  std::string simulator;  ///< Name of its owner; empty: the service does not know any of this.
+  std::string name;
+  std::string assembly;
+  std::vector<Tag> tags;
+};
+
 /// What an agent declares about itself: valid for every state until it is described anew.
 ///
 /// The service derives everything from these bounds. A bound that the motion exceeds makes the
@@ -111,6 +119,8 @@ const char* Name(EventLimit limit);
 struct Event {
   AgentId lower;
   AgentId higher;
+  AgentLabel lower_label;
+  AgentLabel higher_label;
   std::uint32_t contact = 0;  ///< Ordinal among the contacts of this pair, from 1.
   std::uint32_t revision = 0;
   std::int64_t now_ns = 0;  ///< The service's time at this revision.
@@ -132,7 +142,8 @@ struct Event {
   std::uint32_t level = 0;       ///< Depth of the sphere trees that decided it; 0: balls.
   std::uint64_t work_units = 0;  ///< Spent on this contact so far.
   EventLimit limited_by = EventLimit::kNone;
-  /// The service removed an agent of the pair: "silent", "evicted" or "restarted"; else empty.
+  /// The service removed an agent of the pair: "silent", "evicted", "restarted" or "refused"; else
+  /// empty.
   std::string because;
 };
 

@@ -19,7 +19,10 @@ struct WorldOptions {
   std::string simulator =
       {};  ///< Unique in the world, 1-64 of [A-Za-z0-9_-]; names your agents' owner.
   std::uint32_t domain = 0;  ///< DDS domain, 0-230.
-  bool lock_step = true;     ///< False: stamps are wall-clock time, and no simulator waits.
+  /// Label of the frame in which positions are told, at most 64 bytes; empty: not stated. A service
+  /// whose world states another one is refused, and refuses this simulator.
+  std::string frame = {};
+  bool lock_step = true;  ///< False: stamps are wall-clock time, and no simulator waits.
   /// The first run that it tries; 0: tenths of a second since 2020 (UTC), modulo 2^32. Each start
   /// of a simulator has a higher run than the last: if the service has a higher one of an earlier
   /// start, this one takes the next after it.
@@ -172,6 +175,10 @@ class World {
   /// until that has ended, and then takes over by itself, with a new run if need be: its agents
   /// have other ids then. Empty: it does not wait.
   std::string waits_for_name() const;
+
+  /// The name of an agent of which this simulator has heard, its own or one of an event, also after
+  /// it has left; else the id of its simulator and its slot: "5d0c8a8b6f6f1d2e:3".
+  std::string Name(const AgentId& id) const;
 
   /// Why nothing counts any more that this simulator sends: an operator has evicted it, or has
   /// restarted the world's time. Its promises are void. Only another World comes back. Empty: none

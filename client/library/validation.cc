@@ -137,6 +137,10 @@ void ValidateClock(std::int64_t clock_ns) { CheckInstant("clock_ns", clock_ns); 
 void Validate(const WorldOptions& options) {
   ValidateWorld(options.world, options.domain);
   RequireIdentifier("simulator", options.simulator);
+  if (options.frame.size() > wire::kLabelMax) {
+    throw std::runtime_error("frame: " + std::to_string(options.frame.size()) +
+                             " bytes, allowed: 0 to " + std::to_string(wire::kLabelMax));
+  }
   if (options.chunk_size > kChunkSizeMax) {
     throw std::runtime_error("chunk_size: " + std::to_string(options.chunk_size) +
                              ", allowed: 1 to " + std::to_string(kChunkSizeMax) + ", or 0");

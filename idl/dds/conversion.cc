@@ -22,6 +22,8 @@ void SetList(const char* field, std::size_t bound, const List& list, Sequence& t
     using Element = std::remove_reference_t<decltype(to._buffer[i])>;
     if constexpr (std::is_array_v<Element>) {
       SetText(field, list[i], to._buffer[i]);
+    } else if constexpr (std::is_arithmetic_v<Element>) {
+      to._buffer[i] = list[i];
     } else {
       Fields<Element>::template Copy<true>(to._buffer[i], list[i]);
     }
@@ -35,6 +37,8 @@ void GetList(const Sequence& from, List* list) {
     using Element = std::remove_reference_t<decltype(from._buffer[i])>;
     if constexpr (std::is_array_v<Element>) {
       *list->Add() = GetText(from._buffer[i]);
+    } else if constexpr (std::is_arithmetic_v<Element>) {
+      list->Add(from._buffer[i]);
     } else {
       Fields<Element>::template Copy<false>(from._buffer[i], *list->Add());
     }
@@ -81,6 +85,16 @@ FIELDS(Bracket, VALUE(lower) VALUE(upper))
 FIELDS(AgentId, VALUE(simulator_id) VALUE(run) VALUE(slot) VALUE(generation))
 FIELDS(ServiceStamp, VALUE(service_id) VALUE(term) VALUE(epoch) VALUE(sequence))
 
+FIELDS(ServiceHello,
+       VALUE(service_id) VALUE(region) VALUE(wire_revision) VALUE(term) VALUE(epoch)
+       VALUE(clock_kind) VALUE(skew_max_ns) TEXT(world) TEXT(frame) TEXT(epoch_utc) TEXT(version)
+       LIST(regions, wire::kRegionsMax) LIST(extensions, wire::kHelloExtensionsMax))
+
+FIELDS(SimulatorHello,
+       VALUE(simulator_id) VALUE(incarnation) VALUE(wire_revision) VALUE(clock_kind)
+       TEXT(simulator_name) TEXT(frame) TEXT(version)
+       LIST(extensions, wire::kHelloExtensionsMax))
+
 FIELDS(AgentDescription,
        VALUE(simulator_id) VALUE(slot) VALUE(incarnation) VALUE(run) VALUE(generation)
        VALUE(revision) VALUE(sequence) VALUE(states_sequence) TEXT(simulator_name)
@@ -117,24 +131,27 @@ FIELDS(AgentClearance,
        VALUE(state_wanted_ns))
 
 FIELDS(Clearance,
-       VALUE(simulator_id) VALUE(chunk) VALUE(run) MESSAGE(stamp) VALUE(now_ns)
+       VALUE(simulator_id) VALUE(chunk) VALUE(region) VALUE(run) MESSAGE(stamp) VALUE(now_ns)
        VALUE(granted_until_ns) VALUE(contacts_sequence) VALUE(forecasts_sequence)
        LIST(agents, collision_v1_STATES_PER_CHUNK_MAX) VALUE(incarnation))
 
 FIELDS(EarliestIntersection,
-       VALUE(service_id) MESSAGE(stamp) VALUE(now_ns) VALUE(found) VALUE(earliest_ns)
+       VALUE(service_id) VALUE(region) MESSAGE(stamp) VALUE(now_ns) VALUE(found) VALUE(earliest_ns)
        MESSAGE(lower) MESSAGE(higher))
 
+FIELDS(AgentLabel, TEXT(simulator_name) TEXT(agent_name) TEXT(assembly) LIST(tags, wire::kTagsMax))
+
 FIELDS(CollisionEvent,
-       VALUE(pair_slot) MESSAGE(stamp) VALUE(now_ns) VALUE(contacts_sequence) MESSAGE(lower)
-       MESSAGE(higher) VALUE(contact) VALUE(revision) VALUE(status) MESSAGE(begin) MESSAGE(end)
+       VALUE(pair_slot) VALUE(region) MESSAGE(stamp) VALUE(now_ns) VALUE(contacts_sequence)
+       MESSAGE(lower) MESSAGE(higher) MESSAGE(lower_label) MESSAGE(higher_label) VALUE(contact)
+       VALUE(revision) VALUE(status) MESSAGE(begin) MESSAGE(end)
        VALUE(continuous) VALUE(began_before) VALUE(evaluated_at_ns) MESSAGE(separation_m)
        VALUE(depth_lower_m) MESSAGE(point_m) VALUE(point_error_m) MESSAGE(normal)
        VALUE(normal_error_rad) VALUE(level) VALUE(work_units) VALUE(limited_by)
        LIST(extensions, wire::kEventExtensionsMax))
 
 FIELDS(Rejection,
-       VALUE(simulator_id) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(run_in_force)
+       VALUE(simulator_id) VALUE(region) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(run_in_force)
        VALUE(reason) VALUE(topic) VALUE(slot) VALUE(generation) TEXT(field) TEXT(detail)
        VALUE(count) VALUE(incarnation))
 
@@ -142,7 +159,8 @@ FIELDS(StandingRefusal,
        VALUE(reason) VALUE(topic) VALUE(slot) VALUE(generation) TEXT(field) TEXT(detail))
 
 FIELDS(SimulatorReport,
-       VALUE(simulator_id) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(incarnation) TEXT(name)
+       VALUE(simulator_id) VALUE(region) MESSAGE(stamp) VALUE(now_ns) VALUE(run)
+       VALUE(incarnation) TEXT(name)
        VALUE(alive) VALUE(ended) VALUE(descriptions_sequence) VALUE(states_sequence) VALUE(agents)
        VALUE(agents_stated) VALUE(refused) LIST(refusals, wire::kReportRefusalsMax))
 
@@ -154,14 +172,17 @@ FIELDS(Counter, TEXT(name) VALUE(value))
 
 FIELDS(OperatorCommand, VALUE(command_id) VALUE(kind) TEXT(simulator))
 
+FIELDS(Watch, VALUE(watcher_id) VALUE(period_ns) VALUE(lease_ns) VALUE(all)
+              LIST(agents, wire::kWatchAgentsMax))
+
 FIELDS(ServiceStatus,
-       VALUE(service_id) MESSAGE(stamp) VALUE(phase) TEXT(version) TEXT(world)
+       VALUE(service_id) VALUE(region) MESSAGE(stamp) VALUE(phase) TEXT(version) TEXT(world)
        VALUE(simulated_clock) VALUE(now_ns) VALUE(granted_until_ns) VALUE(lease_ns) VALUE(agents)
        VALUE(pairs_tracked) LIST(simulators, wire::kStatusSimulatorsMax)
        LIST(counters, wire::kStatusCountersMax) TEXT(broad_phase) TEXT(broad_phase_why)
        LIST(left_out, wire::kStatusLeftOutMax) LIST(extensions, wire::kStatusExtensionsMax)
        VALUE(followers)
-       VALUE(configuration))
+       VALUE(configuration) TEXT(frame) TEXT(epoch_utc))
 // clang-format on
 
 }  // namespace
@@ -194,6 +215,10 @@ void Get(const void* wire, Message* message) {
 
 void FromWire(TopicId topic, const void* wire, v1::Input* input) {
   switch (topic) {
+    case TopicId::kSimulatorHello:
+      return Get(wire, input->mutable_simulator_hello());
+    case TopicId::kWatch:
+      return Get(wire, input->mutable_watch());
     case TopicId::kSimulatorClock:
       return Get(wire, input->mutable_simulator_clock());
     case TopicId::kAgentDescription:
@@ -224,6 +249,8 @@ void FromWire(TopicId topic, const void* wire, v1::Input* input) {
 
 void FromWire(TopicId topic, const void* wire, v1::Output* output) {
   switch (topic) {
+    case TopicId::kServiceHello:
+      return Get(wire, output->mutable_service_hello());
     case TopicId::kClearance:
       return Get(wire, output->mutable_clearance());
     case TopicId::kEarliestIntersection:
@@ -245,6 +272,9 @@ void FromWire(TopicId topic, const void* wire, v1::Output* output) {
 #define BOTH_WAYS(Message)                                                             \
   template WireSample<collision_v1_##Message> ToWire<v1::Message>(const v1::Message&); \
   template void FromWire<v1::Message>(const collision_v1_##Message&, v1::Message*);
+BOTH_WAYS(SimulatorHello)
+BOTH_WAYS(ServiceHello)
+BOTH_WAYS(Watch)
 BOTH_WAYS(SimulatorClock)
 BOTH_WAYS(AgentDescription)
 BOTH_WAYS(ShapePart)

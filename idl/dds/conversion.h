@@ -23,6 +23,9 @@ struct Carrier;
     static constexpr TopicId kTopic = TopicId::topic; \
   };
 
+COLLISION_CARRIER(SimulatorHello, kSimulatorHello)
+COLLISION_CARRIER(ServiceHello, kServiceHello)
+COLLISION_CARRIER(Watch, kWatch)
 COLLISION_CARRIER(SimulatorClock, kSimulatorClock)
 COLLISION_CARRIER(AgentDescription, kAgentDescription)
 COLLISION_CARRIER(ShapePart, kShapePart)

@@ -132,7 +132,7 @@ Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
                         dds_duration_t lease, const dds_listener_t* listener, Inbox* inbox) {
   Builder builder(participant, lease);
   const auto& [of_simulators, of_service, earliest, of_other_services, events_too, as_simulator,
-               as_service, of_operators, as_operator] = partitions;
+               as_service, of_operators, as_operator, of_watchers, as_watcher] = partitions;
   if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener, inbox);
   if (of_service) builder.Read(Source::kService, *of_service, listener, nullptr, earliest);
   if (of_other_services) builder.ReadOtherServices(*of_other_services, events_too, listener);
@@ -140,6 +140,8 @@ Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
   if (as_simulator) builder.Write(Source::kSimulators, *as_simulator);
   if (of_operators) builder.Read(Source::kOperators, *of_operators, nullptr, nullptr);
   if (as_operator) builder.Write(Source::kOperators, *as_operator);
+  if (of_watchers) builder.Read(Source::kWatchers, *of_watchers, nullptr, nullptr);
+  if (as_watcher) builder.Write(Source::kWatchers, *as_watcher);
   return builder.endpoints();
 }
 

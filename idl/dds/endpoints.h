@@ -20,6 +20,7 @@ struct Partitions {
   bool read_events_of_other_services = false;         ///< And what they publish of contacts.
   std::optional<std::string> write_as_simulator, write_as_service;
   std::optional<std::string> read_of_operators, write_as_operator;
+  std::optional<std::string> read_of_watchers, write_as_watcher;
 };
 
 /// The longest lease of a service [s]: what its readers ask for.

@@ -143,7 +143,8 @@ std::size_t Intake::Take(dds_entity_t reader, const TopicRow& row, std::size_t l
         }
         continue;
       }
-      if (outputs == nullptr) {
+      if (outputs == nullptr || row.source == Source::kWatchers) {
+        if (inputs == nullptr) continue;
         FromWire(row.id, loan.sample(i), &inputs->emplace_back());
       } else if (Wanted(row, loan.sample(i))) {
         FromWire(row.id, loan.sample(i), &outputs->emplace_back());

@@ -22,6 +22,7 @@ using dds::Check;
 
 /// Behind the world's name. No simulator has this partition: none has an empty name.
 constexpr char kOperatorsPartition[] = "..operators";
+constexpr char kWatchersPartition[] = "..watchers";
 
 void CheckName(const char* what, const std::string& name) {
   if (wire::IsName(name)) return;
@@ -59,6 +60,9 @@ dds::Partitions PartitionsOf(const DdsSessionOptions& options) {
   const std::string of_operators = options.world + kOperatorsPartition;
   if (service) partitions.read_of_operators = of_operators;
   if (as_operator) partitions.write_as_operator = of_operators;
+  const std::string of_watchers = options.world + kWatchersPartition;
+  if (simulator) partitions.read_of_watchers = of_watchers;
+  if (options.role == DdsRole::kWatcher) partitions.write_as_watcher = of_watchers;
   return partitions;
 }
 
@@ -278,10 +282,12 @@ DdsSession::DdsSession(DdsSession&&) noexcept = default;
 DdsSession& DdsSession::operator=(DdsSession&&) noexcept = default;
 DdsSession::~DdsSession() = default;
 
+void DdsSession::Write(const v1::SimulatorHello& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::AgentDescription& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::ShapePart& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::AgentStates& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::SimulatorClock& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::ServiceHello& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::Clearance& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::EarliestIntersection& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::CollisionEvent& message) {
@@ -292,6 +298,7 @@ void DdsSession::Write(const v1::Rejection& message) { implementation_->Write(me
 void DdsSession::Write(const v1::ServiceStatus& message) { implementation_->WriteStatus(message); }
 void DdsSession::Write(const v1::SimulatorReport& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::OperatorCommand& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::Watch& message) { implementation_->Write(message); }
 
 void DdsSession::RemoveAgent(const v1::AgentRemoval& removal) {
   implementation_->RemoveAgent(removal);

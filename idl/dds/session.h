@@ -20,6 +20,7 @@ enum class DdsRole {
                ///< own.
   kMonitor,    ///< Writes nothing.
   kOperator,   ///< Writes commands; reads the service's topics.
+  kWatcher,    ///< Writes what it watches; reads nothing.
 };
 
 struct DdsSessionOptions {
@@ -83,10 +84,12 @@ class DdsSession {
   /// Writes a sample; Flush() sends it. Throws std::length_error, naming field and bound, for a
   /// text, list or byte field longer than the IDL allows, and std::logic_error for a message that
   /// is not of this role.
+  void Write(const v1::SimulatorHello& message);
   void Write(const v1::AgentDescription& message);
   void Write(const v1::ShapePart& message);
   void Write(const v1::AgentStates& message);
   void Write(const v1::SimulatorClock& message);
+  void Write(const v1::ServiceHello& message);
   void Write(const v1::Clearance& message);
   void Write(const v1::EarliestIntersection& message);
   void Write(const v1::CollisionEvent& message);  ///< A contact if it has contacts_sequence.
@@ -94,6 +97,7 @@ class DdsSession {
   void Write(const v1::ServiceStatus& message);
   void Write(const v1::SimulatorReport& message);
   void Write(const v1::OperatorCommand& message);
+  void Write(const v1::Watch& message);
 
   /// Removes an agent for good, by disposing of its description. kSimulator only. Flush() sends it.
   void RemoveAgent(const v1::AgentRemoval& removal);
@@ -111,8 +115,8 @@ class DdsSession {
 
   /// Waits until something arrived, `timeout` is over or Wake() was called; then takes what
   /// arrived, at most `limit` samples, the rest stays for the next call, and appends a message for
-  /// each. What simulators and operators wrote goes to `inputs`, what the service wrote to
-  /// `outputs`; nullptr where the role reads none. To a service another one's status is an input.
+  /// each. What simulators, operators, watchers wrote goes to `inputs`, what the service wrote to
+  /// `outputs`; null where the role reads none. To a service another one's status is an input.
   /// Returns how many samples it took; not all are messages (a simulator's session hands on only
   /// its own clearances), a removal may come as a second message of one sample, and changes of
   /// liveliness come on top.

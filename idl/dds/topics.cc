@@ -8,6 +8,8 @@ const std::array<TopicRow, kTopics>& Topics() {
   using enum TopicId;
   using enum Source;
   static const std::array<TopicRow, kTopics> rows = {{
+      {kSimulatorHello, "collision/v1/simulator_hello", &collision_v1_SimulatorHello_desc,
+       kSimulators, 1, 1, 1, false, kAll},
       {kSimulatorClock, "collision/v1/simulator_clock", &collision_v1_SimulatorClock_desc,
        kSimulators, 1, 1, 8, true, kAll},
       {kAgentDescription, "collision/v1/agent_description", &collision_v1_AgentDescription_desc,
@@ -16,6 +18,8 @@ const std::array<TopicRow, kTopics>& Topics() {
        kAll},
       {kAgentStates, "collision/v1/agent_states", &collision_v1_AgentStates_desc, kSimulators, 1, 1,
        32, false, kAll},
+      {kServiceHello, "collision/v1/hello", &collision_v1_ServiceHello_desc, kService, 1, 1, 1,
+       false, kAll},
       {kClearance, "collision/v1/clearance", &collision_v1_Clearance_desc, kService, 1, 1, 1, false,
        kAll},
       {kEarliestIntersection, "collision/v1/earliest_intersection",
@@ -32,6 +36,7 @@ const std::array<TopicRow, kTopics>& Topics() {
        kService, 1, 1, 1, false, kAll},
       {kOperatorCommand, "collision/v1/operator_command", &collision_v1_OperatorCommand_desc,
        kOperators, 1, 1, 1, false, kCommandsAtOnce},
+      {kWatch, "collision/v1/watch", &collision_v1_Watch_desc, kWatchers, 1, 1, 1, false, kAll},
   }};
   return rows;
 }

@@ -11,10 +11,12 @@
 namespace collision::dds {
 
 enum class TopicId {
+  kSimulatorHello,
   kSimulatorClock,
   kAgentDescription,
   kShapePart,
   kAgentStates,
+  kServiceHello,
   kClearance,
   kEarliestIntersection,
   kContact,
@@ -23,10 +25,11 @@ enum class TopicId {
   kServiceStatus,
   kSimulatorReport,
   kOperatorCommand,
+  kWatch,
 };
-inline constexpr std::size_t kTopics = 12;
+inline constexpr std::size_t kTopics = 15;
 
-enum class Source { kSimulators, kService, kOperators };
+enum class Source { kSimulators, kService, kOperators, kWatchers };
 
 /// A command that a service has not taken by then means nothing any more [ns].
 inline constexpr dds_duration_t kCommandLifespan = DDS_SECS(10);

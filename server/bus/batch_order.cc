@@ -26,7 +26,10 @@ Key KeyOf(const v1::Input& input, bool reused) {
     case v1::Input::kEventHeard:
     case v1::Input::kShapeReady:
     case v1::Input::kOperatorCommand:
+    case v1::Input::kWatch:
       return {0, -1, 0};
+    case v1::Input::kSimulatorHello:  // whether the others count
+      return {input.simulator_hello().simulator_id(), -1, 0};
     case v1::Input::kAgentDescription:
       return {input.agent_description().simulator_id(), 0, input.agent_description().slot()};
     case v1::Input::kAgentRemoval:

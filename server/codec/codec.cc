@@ -141,6 +141,15 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
                                      .shape_awaited = !hash.empty()};
 }
 
+v1::AgentLabel LabelOf(const v1::AgentDescription& description) {
+  v1::AgentLabel label;
+  label.set_simulator_name(description.simulator_name());
+  label.set_agent_name(description.agent_name());
+  label.set_assembly(description.assembly());
+  *label.mutable_tags() = description.tags();
+  return label;
+}
+
 std::optional<Refusal> CheckChunk(const v1::AgentStates& chunk) {
   FieldCheck check(At(chunk));
   check.Integer("states", chunk.states_size(), 0, wire::kStatesPerSampleMax,

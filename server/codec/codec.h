@@ -60,6 +60,9 @@ std::optional<Refusal> CheckIdentity(const v1::SimulatorClock& clock);
 /// which shapes are there.
 Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescription& description);
 
+/// What the agent is called, as events carry it.
+v1::AgentLabel LabelOf(const v1::AgentDescription& description);
+
 /// Which times a state may carry.
 struct StampRules {
   Instant earliest = Instant::Always();  ///< See the table above.

@@ -86,6 +86,14 @@ constexpr ConfigOption kOptions[] = {
      "With WALL, wait so long at the start until the system counts its clock as synchronised, then "
      "go on without. 0: do not wait.",
      "", "WALL"},
+    {"frame", "none", "", "", "a text of at most 64 printable ASCII characters, or empty", "\"\"",
+     "Label of the world frame, such as \"ENU 47.3977 8.5456 488\". A simulator that states "
+     "another "
+     "one is refused. Empty: not stated, and any fits."},
+    {"epoch_utc", "none", "", "", "a text of at most 64 printable ASCII characters, or empty",
+     "\"\"",
+     "With SIMULATED, what instant 0 is, such as \"2026-01-01T00:00:00Z\", for those who read. "
+     "Empty: not stated."},
     {"log_level", "none", "", "", "trace, debug, info, warn, error, critical or off", "\"info\"",
      "The least severe lines that are logged."},
     {"log_file", "none", "", "", "a path of at most 4096 printable ASCII characters, or empty",
@@ -244,7 +252,8 @@ bool IsAllowedText(std::string_view path, const std::string& text) {
   if (path == "world") return wire::IsName(text);
   if (path == "log_level") return IsLogLevel(text);
   const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
-  return text.size() <= 4096 && std::ranges::all_of(text, printable);
+  const bool is_label = path == "frame" || path == "epoch_utc";
+  return text.size() <= (is_label ? wire::kLabelMax : 4096) && std::ranges::all_of(text, printable);
 }
 
 /// Whether a number lies in the option's range; text that is no number lies in none. Text to double

@@ -43,6 +43,7 @@ void AgentRegistry::Introduce(Simulator* simulator, const v1::AgentDescription& 
   simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, slot);
   simulator->refusals().Accept(v1::TOPIC_AGENT_STATES, slot);
   agent->description_sequence = wire.sequence();
+  agent->label = std::make_shared<const v1::AgentLabel>(LabelOf(wire));
   shapes_.Refer(simulator, slot, ShapeHashOf(wire), agent);
   told_[simulator->id()].try_emplace(slot);
 }
@@ -55,6 +56,7 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
   simulator->agents().Revise(wire.slot(), wire.revision(), declaration);
   simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, wire.slot());
   agent->description_sequence = wire.sequence();
+  agent->label = std::make_shared<const v1::AgentLabel>(LabelOf(wire));
   shapes_.Refer(simulator, wire.slot(), ShapeHashOf(wire), agent);
   if (!agent->admitted()) return;
   const detection::AgentId id = simulator->IdOf(wire.slot(), agent->generation());
@@ -292,7 +294,10 @@ void AgentRegistry::RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent*
 
 void AgentRegistry::Withdraw(const Simulator& simulator, std::uint32_t slot, const Agent& agent) {
   if (!agent.admitted()) return;
-  detector_.Remove(simulator.IdOf(slot, agent.generation()));
+  const detection::AgentId id = simulator.IdOf(slot, agent.generation());
+  const Instant told = simulator.time().clock().value_or(Instant::Always());
+  world_.departed().Add(id, agent.label, std::max(agent.stamp(), told));
+  detector_.Remove(id);
   world_.quotas().GiveBack(simulator.id(), Resource::kAgents, 1);
   ++counters_.removed;
 }

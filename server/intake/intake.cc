@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "idl/identity.h"
+#include "server/codec/hello.h"
 #include "server/process/logging.h"
 
 namespace collision::server {
@@ -29,10 +30,13 @@ Intake::Intake(const v1::Config& config, std::uint64_t instance, World* world,
       shapes_(*shapes),
       agent_shapes_(config, world, detector, rejections, shapes),
       agents_(config, world, detector, rejections, &agent_shapes_),
-      sender_clocks_(config, world, &agents_) {}
+      sender_clocks_(config, world, &agents_),
+      hello_(HelloOf(config)) {}
 
 void Intake::Apply(const v1::Input& input) {
   switch (input.message_case()) {
+    case v1::Input::kSimulatorHello:
+      return TakeHello(input);
     case v1::Input::kAgentDescription:
       return TakeDescription(input);
     case v1::Input::kAgentStates:
@@ -52,12 +56,14 @@ void Intake::Apply(const v1::Input& input) {
     case v1::Input::kServiceHeard:     // for the claim
     case v1::Input::kEventHeard:       // for the publisher
     case v1::Input::kOperatorCommand:  // for the OperatorCommands
+    case v1::Input::kWatch:            // for simulators
     case v1::Input::MESSAGE_NOT_SET:
       return;
   }
 }
 
 Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::string* name) {
+  if (IsUnfit(input, where)) return nullptr;
   const Claim claim = world_.ClaimFor(where.simulator_id, input.sender(), where.run, name);
   if (claim.unproven) {
     AwaitName(input, where.simulator_id);
@@ -95,6 +101,42 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
   }
   if (where.topic != v1::TOPIC_SIMULATOR_CLOCK) claim.simulator->CountTold();
   return claim.simulator;
+}
+
+void Intake::TakeHello(const v1::Input& input) {
+  const v1::SimulatorHello& hello = input.simulator_hello();
+  const std::optional<Refusal> refusal = CheckHello(hello, hello_);
+  if (!refusal) {
+    unfit_.erase(input.sender());
+    return;
+  }
+  if (unfit_.size() >= kUnfitMax) unfit_.erase(unfit_.begin());
+  unfit_.insert_or_assign(input.sender(), Unfitting{hello.simulator_name(), *refusal});
+  Log(spdlog::level::warn, "simulator does not fit",
+      fmt::format("simulator \"{}\" is refused: {}: {}", hello.simulator_name(), refusal->field,
+                  refusal->detail));
+  rejections_.Add(*refusal);
+  // Topics overtake each other: it may have been taken in already.
+  Simulator* simulator = world_.Find(hello.simulator_id());
+  if (simulator != nullptr && simulator->sender() == input.sender()) {
+    EndRun(simulator, EndCause::kRefused);
+  }
+}
+
+bool Intake::IsUnfit(const v1::Input& input, const Refusal& where) {
+  const auto found = unfit_.find(input.sender());
+  if (found == unfit_.end() || input.sender() == 0) return false;
+  if (found->second.refusal.simulator_id != where.simulator_id) return false;
+  rejections_.Count(found->second.refusal);
+  return true;
+}
+
+std::vector<std::string> Intake::Unfit() const {
+  std::vector<std::string> texts;
+  for (const auto& [sender, one] : unfit_) {
+    texts.push_back(one.name + ": " + one.refusal.field + " " + one.refusal.detail);
+  }
+  return texts;
 }
 
 bool Intake::SucceedsLast(const v1::Input& input) const {
@@ -248,7 +290,10 @@ void Intake::TakeRemoval(const v1::Input& input) {
 }
 
 void Intake::TakeLiveliness(const v1::Input& input) {
-  if (!input.liveliness().alive()) unproven_.Forget(input.sender());
+  if (!input.liveliness().alive()) {
+    unproven_.Forget(input.sender());
+    unfit_.erase(input.sender());
+  }
   Simulator* simulator = world_.Find(input.liveliness().simulator_id());
   if (simulator == nullptr) return;
   const bool alive = input.liveliness().alive();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,10 @@
 #include "server/world/world.h"
 
 namespace collision::server {
+
+/// Senders that are refused and remembered; of more, any is forgotten, and refused again with its
+/// next hello.
+inline constexpr std::size_t kUnfitMax = 256;
 
 /// Messages since the start, beside the AgentCounters.
 struct IntakeCounters {
@@ -82,6 +87,9 @@ class Intake {
   SenderClocks& sender_clocks() { return sender_clocks_; }
   const UnprovenInputs& unproven() const { return unproven_; }
 
+  /// The simulators that are refused since their hello does not fit, each with the reason.
+  std::vector<std::string> Unfit() const;
+
   const IntakeCounters& counters() const { return counters_; }
   const AgentCounters& agent_counters() const { return agents_.counters(); }
 
@@ -108,6 +116,10 @@ class Intake {
   bool MayRemove(const Simulator& simulator, const v1::Input& input, bool is_owners,
                  const Refusal& refusal);
 
+  /// A simulator says who it is. One that does not fit is refused, with all that it writes.
+  void TakeHello(const v1::Input& input);
+  /// Whether this sender's hello did not fit.
+  bool IsUnfit(const v1::Input& input, const Refusal& where);
   void TakeDescription(const v1::Input& input);
   void TakeStates(const v1::Input& input);
   void TakeClock(const v1::Input& input);
@@ -128,6 +140,12 @@ class Intake {
   AgentRegistry agents_;
   SenderClocks sender_clocks_;
   UnprovenInputs unproven_;
+  const v1::ServiceHello hello_;
+  struct Unfitting {
+    std::string name;
+    Refusal refusal;
+  };
+  std::map<std::uint64_t, Unfitting> unfit_;  ///< By sender.
   IntakeCounters counters_;
 };
 

@@ -93,10 +93,11 @@ void InheritedEvents::Hear(const v1::CollisionEvent& event) {
   DropTold(pair);
 }
 
-void InheritedEvents::Keep(const Event& contact) {
+void InheritedEvents::Keep(const Event& contact, const PairLabels& labels) {
   if (IsTold(contact)) return;
   if (untold_.size() == kUntoldMax) DropOldest();
-  untold_of_[{contact.lower, contact.higher}].push_back(untold_.insert(untold_.end(), contact));
+  untold_of_[{contact.lower, contact.higher}].push_back(
+      untold_.insert(untold_.end(), {contact, labels}));
 }
 
 void InheritedEvents::DropTold(const Pair& pair) {
@@ -117,21 +118,22 @@ void InheritedEvents::DropUndecided(Instant before) {
 template <typename Predicate>
 void InheritedEvents::Drop(std::deque<Untold::iterator>* contacts, const Predicate& is_dropped) {
   std::erase_if(*contacts, [&](Untold::iterator contact) {
-    if (!is_dropped(*contact)) return false;
+    if (!is_dropped(contact->event)) return false;
     untold_.erase(contact);
     return true;
   });
 }
 
 void InheritedEvents::DropOldest() {
-  const auto of_pair = untold_of_.find({untold_.front().lower, untold_.front().higher});
+  const Event& oldest = untold_.front().event;
+  const auto of_pair = untold_of_.find({oldest.lower, oldest.higher});
   of_pair->second.pop_front();
   if (of_pair->second.empty()) untold_of_.erase(of_pair);
   untold_.pop_front();
 }
 
-std::vector<InheritedEvents::Event> InheritedEvents::TakeUntold() {
-  std::vector<Event> untold(untold_.begin(), untold_.end());
+std::vector<UntoldContact> InheritedEvents::TakeUntold() {
+  std::vector<UntoldContact> untold(untold_.begin(), untold_.end());
   untold_.clear();
   untold_of_.clear();
   return untold;

@@ -13,10 +13,17 @@
 #include "collision_core/base/recent_map.h"
 #include "collision_core/detection/events/collision_event.h"
 #include "idl/messages.pb.h"
+#include "server/publish/identity/event_labels.h"
 
 namespace collision::server {
 
 detection::AgentId IdOf(const v1::AgentId& wire);
+
+/// A contact that readers have not been told of, and what its agents are called.
+struct UntoldContact {
+  detection::CollisionEvent event;
+  PairLabels labels;
+};
 
 /// Compares the contacts that a standby finds with those that the service in force publishes, so
 /// that after a take-over none is lost and none is told as another one.
@@ -51,14 +58,14 @@ class InheritedEvents {
   void Hear(const v1::CollisionEvent& event);
 
   /// This service, standing by, would publish this contact.
-  void Keep(const detection::CollisionEvent& contact);
+  void Keep(const detection::CollisionEvent& contact, const PairLabels& labels = {});
 
   /// Contacts that are over before this and were never certain are dropped from now on, and those
   /// that are kept: a service that did not miss any state has not found them.
   void DropUndecided(Instant before);
 
   /// It takes over: the contacts that have not been published, in their order.
-  std::vector<detection::CollisionEvent> TakeUntold();
+  std::vector<UntoldContact> TakeUntold();
 
   /// Before that: the newest that have, as the other service told them. It may have ended before
   /// all readers had them; those that know them pass over them.
@@ -82,7 +89,7 @@ class InheritedEvents {
     std::uint32_t for_readers = 0;  ///< and this is theirs.
   };
 
-  using Untold = std::list<Event>;
+  using Untold = std::list<UntoldContact>;
 
   bool IsTold(const Event& contact);
   void DropTold(const Pair& pair);

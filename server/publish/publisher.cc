@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "collision_core/numeric/seconds.h"
+#include "idl/limits.h"
 #include "server/codec/encode.h"
+#include "server/codec/hello.h"
+#include "server/process/version.h"
 #include "server/publish/because.h"
 
 namespace collision::server {
@@ -42,6 +45,7 @@ v1::CollisionEvent Encode(const detection::CollisionEvent& event, const EndedRun
 Publisher::Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* bus)
     : claim_(*claim),
       demand_(config),
+      hello_(HelloOf(config)),
       bus_(*bus),
       filter_(config),
       earliest_period_ns_(ToNanoseconds(config.earliest_period_s())),
@@ -106,6 +110,7 @@ std::vector<Telling> Publisher::Filter(const std::vector<detection::CollisionEve
                                        const World& world) {
   for (const detection::CollisionEvent& event : events) {
     event_log_.Add(Encode(event, world.ended_runs()));
+    labels_.Note(event, world);
   }
   // By the world's time where that is simulated, so that a run at any speed tells the same.
   const std::int64_t time_ns = world.simulated() ? world.now().nanoseconds() : world.monotonic_ns();
@@ -118,7 +123,7 @@ void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& even
     if (claim_.speaks()) {
       Publish(telling, world);
     } else if (telling.contact) {
-      inherited_.Keep(telling.event);
+      inherited_.Keep(telling.event, labels_.Of(telling.event));
     }
   }
   if (claim_.speaks() && !world.simulated()) bus_.Flush();
@@ -137,9 +142,9 @@ void Publisher::PublishInherited(const World& world) {
     told.insert({IdOf(contact.lower()), IdOf(contact.higher())});
     PublishContact(std::move(contact), epoch_);
   }
-  for (const detection::CollisionEvent& contact : inherited_.TakeUntold()) {
-    told.insert({contact.lower, contact.higher});
-    Publish({contact, true}, world);
+  for (const UntoldContact& contact : inherited_.TakeUntold()) {
+    told.insert({contact.event.lower, contact.event.higher});
+    PublishContact(ForReaders(contact.event, contact.labels, world), epoch_);
   }
   for (const Telling& telling : filter_.Standing()) {
     const detection::CollisionEvent& event = telling.event;
@@ -148,14 +153,15 @@ void Publisher::PublishInherited(const World& world) {
 }
 
 v1::CollisionEvent Publisher::ForReaders(const detection::CollisionEvent& event,
-                                         const World& world) {
+                                         const PairLabels& labels, const World& world) {
   v1::CollisionEvent wire = Encode(event, world.ended_runs());
+  AddLabels(labels, &wire);
   wire.set_contact(inherited_.NumberOf(event));
   return wire;
 }
 
 void Publisher::Publish(const Telling& telling, const World& world) {
-  v1::CollisionEvent event = ForReaders(telling.event, world);
+  v1::CollisionEvent event = ForReaders(telling.event, labels_.Of(telling.event), world);
   if (telling.contact) return PublishContact(std::move(event), epoch_);
   ++events_.forecasts;
   *event.mutable_stamp() = NextStamp();
@@ -229,19 +235,33 @@ void Publisher::BeginEpoch(std::uint32_t epoch, const World& world) {
     for (v1::CollisionEvent& contact : inherited_.TakeTold()) {
       unheard_.emplace_back(epoch_, std::move(contact));
     }
-    for (const detection::CollisionEvent& contact : inherited_.TakeUntold()) {
-      unheard_.emplace_back(epoch_, ForReaders(contact, world));
+    for (const UntoldContact& contact : inherited_.TakeUntold()) {
+      unheard_.emplace_back(epoch_, ForReaders(contact.event, contact.labels, world));
     }
     while (unheard_.size() > InheritedEvents::kUntoldMax) unheard_.pop_front();
   }
   epoch_ = epoch;
   earliest_.reset();
   filter_.Forget();
+  labels_.Forget();
   inherited_.BeginEpoch(epoch);
 }
 
 void Publisher::ForgetBefore(std::uint32_t epoch) {
   std::erase_if(unheard_, [epoch](const auto& contact) { return contact.first < epoch; });
+}
+
+void Publisher::PublishHello() {
+  const bool is_known = hello_.service_id() == claim_.instance() &&
+                        hello_.term() == claim_.term() && hello_.epoch() == epoch_;
+  if (is_known) return;
+  hello_.set_service_id(claim_.instance());
+  hello_.set_term(claim_.term());
+  hello_.set_epoch(epoch_);
+  hello_.set_version(std::string(Version()).substr(0, wire::kLabelMax));
+  v1::Output output;
+  *output.mutable_service_hello() = hello_;
+  bus_.Publish(output);
 }
 
 void Publisher::PublishStatus(v1::ServiceStatus status) {

@@ -12,6 +12,7 @@
 #include "server/claim/service_claim.h"
 #include "server/publish/event_filter.h"
 #include "server/publish/event_log.h"
+#include "server/publish/identity/event_labels.h"
 #include "server/publish/inherited_events.h"
 #include "server/publish/state_demand.h"
 #include "server/world/world.h"
@@ -72,6 +73,9 @@ class Publisher {
 
   void PublishRejections(std::vector<v1::Rejection> rejections);
 
+  /// It speaks: publishes who it is, if that has changed. Before anything but its status.
+  void PublishHello();
+
   void PublishStatus(v1::ServiceStatus status);
 
   void PublishReports(std::vector<v1::SimulatorReport> reports);
@@ -94,18 +98,21 @@ class Publisher {
   std::vector<Telling> Filter(const std::vector<detection::CollisionEvent>& events,
                               const World& world);
   void Publish(const Telling& telling, const World& world);
-  v1::CollisionEvent ForReaders(const detection::CollisionEvent& event, const World& world);
+  v1::CollisionEvent ForReaders(const detection::CollisionEvent& event, const PairLabels& labels,
+                                const World& world);
   void PublishContact(v1::CollisionEvent event, std::uint32_t epoch);
   void PublishChunk(const World& world, Simulator* to, std::uint32_t chunk);
 
   const ServiceClaim& claim_;
   const StateDemand demand_;
+  v1::ServiceHello hello_;  ///< As published last.
   Bus& bus_;
   std::uint32_t epoch_ = 1;
   std::uint64_t sequence_ = 0;
   std::uint64_t newest_forecast_ = 0;  ///< Its sequence; 0: there was none.
   EventLog event_log_;
   EventFilter filter_;
+  EventLabels labels_;
   InheritedEvents inherited_;
   std::deque<std::pair<std::uint32_t, v1::CollisionEvent>> unheard_;  ///< With their epochs.
   EventCounters events_;

@@ -28,6 +28,8 @@ v1::RunEnd EndOf(const World& world, const Simulator& simulator) {
       return v1::RUN_EVICTED;
     case EndCause::kRestarted:
       return v1::RUN_RESTARTED;
+    case EndCause::kRefused:
+      return v1::RUN_REFUSED;
   }
   return v1::RUN_GOES_ON;
 }

@@ -207,6 +207,8 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   status.set_version(Version());
   status.set_world(sources.config.world().substr(0, wire::kNameMax));
   status.set_simulated_clock(sources.world.simulated());
+  status.set_frame(sources.config.frame());
+  status.set_epoch_utc(sources.config.epoch_utc());
   status.set_now_ns(sources.world.now().nanoseconds());
   status.set_granted_until_ns(sources.world.granted().nanoseconds());
   status.set_lease_ns(wire::kServiceLease);
@@ -238,6 +240,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   AddQuotas(sources, &status);
   status.set_followers(static_cast<std::uint32_t>(sources.world.followers()));
   AddNames("flooding", sources.bus.flooding(), &status);
+  AddNames("unfit", sources.intake.Unfit(), &status);
   for (const v1::KeyValue& extension : sources.extensions) *status.add_extensions() = extension;
   return status;
 }

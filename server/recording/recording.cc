@@ -19,9 +19,8 @@
 namespace collision::server {
 namespace {
 
-/// From format 2 on a batch may be continued.
-constexpr std::uint32_t kRecordingFormat = 2;
-constexpr std::uint32_t kOldestFormat = 1;
+/// Of the messages in it: those of wire revision 2. Formats 1 and 2 hold an older one.
+constexpr std::uint32_t kRecordingFormat = 3;
 
 /// A state is some 250 bytes, so that all states of 100,000 agents are below this; a length beyond
 /// it is something else read as one.
@@ -149,10 +148,11 @@ RecordingReader::RecordingReader(const std::string& path)
   if (!entry.has_header())
     throw std::runtime_error(path + ": byte 0: not a recording: it has no header");
   const std::uint32_t format = entry.header().format();
-  if (format < kOldestFormat || format > kRecordingFormat) {
-    throw std::runtime_error(path + ": byte 0: format " + std::to_string(format) +
-                             "; this program reads formats " + std::to_string(kOldestFormat) +
-                             " to " + std::to_string(kRecordingFormat));
+  if (format != kRecordingFormat) {
+    throw std::runtime_error(path + ": byte 0: format " + std::to_string(format) + ", written by " +
+                             "version \"" + entry.header().version() + "\"; this program reads " +
+                             "format " + std::to_string(kRecordingFormat) +
+                             " only: replay it with the version that wrote it");
   }
   if (!entry.header().has_config()) {
     throw std::runtime_error(path + ": byte 0: the configuration is missing");

@@ -95,6 +95,7 @@ class Daemon::Implementation {
     claim_.WakeUp(gap_ns, world_.monotonic_ns());
     if (claim_.phase() == ClaimPhase::kServing) bus_.EndHold(true);
     if (!Claim(inputs, before)) return false;
+    if (claim_.speaks()) publisher_.PublishHello();
     if (clock_step_ && claim_.phase() != ClaimPhase::kWaking) FollowStep();
     for (const v1::Input& input : inputs) {
       if (quarantine_ != nullptr) quarantine_->Apply(input);
@@ -348,8 +349,7 @@ class Daemon::Implementation {
     world_.UpdateGrants();
   }
 
-  /// Publishes what does not come from the detector alone. Events have left before the clearances,
-  /// and with them the grants, of the same step.
+  /// Publishes all but the events, which have left before the grants of the same step.
   void PublishAnswers() {
     if (publisher_.EarliestIsDue(world_)) {
       publisher_.PublishEarliest(

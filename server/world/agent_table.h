@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "collision_core/detection/detector.h"
+#include "idl/messages.pb.h"
 #include "server/world/clearances.h"
 
 namespace collision::server {
@@ -38,6 +40,7 @@ class Agent {
   std::string shape_hash = {};              ///< Of the shape that it refers to; empty: the ball.
   bool room_refused = false;                ///< Its owner got REJECTED_TOO_MANY_AGENTS.
   std::uint64_t description_sequence = 0;   ///< Of the description in force.
+  std::shared_ptr<const v1::AgentLabel> label = {};  ///< What it is called there; null: nothing.
   /// The declaration before, while states that were written under it may still arrive.
   std::optional<FormerDeclaration> former = {};
 

@@ -272,7 +272,17 @@ void World::FinishEpoch() {
   }
 }
 
+std::shared_ptr<const v1::AgentLabel> World::LabelOf(const detection::AgentId& id) const {
+  const auto simulator = simulators_.find(id.simulator);
+  if (simulator != simulators_.end() && simulator->second.run() == id.run) {
+    const Agent* agent = simulator->second.agents().Find(id.slot, id.generation);
+    if (agent != nullptr) return agent->label;
+  }
+  return departed_.Find(id);
+}
+
 void World::BeginEpoch() {
+  departed_.Clear();
   if (!simulated_) return BeginWallEpoch();
   for (auto& [id, simulator] : simulators_) {
     if (LeavesWithEpoch(simulator)) simulator.LeaveEpoch();
@@ -372,6 +382,7 @@ void World::SetClearance(const detection::AgentClearance& clearance) {
 }
 
 void World::UpdateGrants() {
+  departed_.ForgetUntil(now_);
   if (!simulated_ || !started_) return;
   // In place of its former run one holds what is granted until it tells what it does.
   const bool holds = std::any_of(simulators_.begin(), simulators_.end(), [](const auto& one) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,6 +15,7 @@
 #include "server/bus/clock.h"
 #include "server/codec/codec.h"
 #include "server/quotas/simulator_quotas.h"
+#include "server/world/departed_labels.h"
 #include "server/world/silence.h"
 #include "server/world/silence/ended_runs.h"
 #include "server/world/simulator.h"
@@ -120,6 +122,10 @@ class World {
 
   /// Moves to NextNow(), if there is one.
   void MoveOn();
+
+  /// What this agent is called, or was before it left; null: not known any more.
+  std::shared_ptr<const v1::AgentLabel> LabelOf(const detection::AgentId& id) const;
+  DepartedLabels& departed() { return departed_; }
 
   /// Who is silent, stands or is missing, and what follows.
   Silence& silence() { return silence_; }
@@ -253,8 +259,8 @@ class World {
   /// The detector gives an agent a new clearance. Ignored if the agent is not there any more.
   void SetClearance(const detection::AgentClearance& clearance);
 
-  /// Grants the time described above to each simulator with a clock, and marks its clearance
-  /// samples where the grant has grown.
+  /// After all events up to now. Grants the time described above, marks the clearance samples where
+  /// it has grown, and forgets the names of agents that have left by now.
   void UpdateGrants();
 
   /// The same with the time that is granted already, for those who have come since. A service that
@@ -300,6 +306,7 @@ class World {
   SimulatorQuotas quotas_;
   Silence silence_;
   EndedRuns ended_runs_;
+  DepartedLabels departed_;
   std::uint32_t epoch_ = 1;
   bool started_ = false;
   Instant now_;

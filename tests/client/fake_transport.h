@@ -19,7 +19,8 @@ inline constexpr std::uint32_t kIncarnation = 4711;  ///< Shapes are numbered fr
 
 /// Shared by the test and the transport; outlives the World that owns the transport.
 struct FakeNetwork {
-  std::vector<v1::Input> written;               ///< Everything the World wrote, in order.
+  std::vector<v1::Input> written;  ///< What the World wrote, in order, but its hello.
+  v1::SimulatorHello hello;
   std::deque<v1::Output> arriving;              ///< What the next Receive() hands over.
   std::vector<v1::Input> heard;                 ///< Likewise, of services.
   std::vector<std::chrono::nanoseconds> waits;  ///< The timeout of every Receive().
@@ -72,7 +73,13 @@ class FakeTransport : public Transport {
  public:
   explicit FakeTransport(std::shared_ptr<FakeNetwork> network) : network_(std::move(network)) {}
 
-  void Write(const v1::Input& message) override { network_->written.push_back(message); }
+  void Write(const v1::Input& message) override {
+    if (message.has_simulator_hello()) {
+      network_->hello = message.simulator_hello();
+    } else {
+      network_->written.push_back(message);
+    }
+  }
 
   void Flush() override { network_->flushed = network_->written.size(); }
 

@@ -34,6 +34,10 @@ Address AddressOf(const v1::Input& message) {
       const v1::AgentStates& m = message.agent_states();
       return {Topic::kStates, Key(m.simulator_id(), m.chunk(), m.incarnation())};
     }
+    case v1::Input::kSimulatorHello: {
+      const v1::SimulatorHello& m = message.simulator_hello();
+      return {Topic::kSimulatorHello, Key(m.simulator_id(), m.incarnation())};
+    }
     case v1::Input::kOperatorCommand:
       return {Topic::kCommand, Key(message.operator_command().command_id())};
     default: {
@@ -57,6 +61,8 @@ Address AddressOf(const v1::Output& message) {
     }
     case v1::Output::kRejection:
       return {Topic::kRejection, Key(message.rejection().simulator_id())};
+    case v1::Output::kServiceHello:
+      return {Topic::kServiceHello, Key(message.service_hello().service_id())};
     case v1::Output::kSimulatorReport:
       return {Topic::kReport, Key(message.simulator_report().simulator_id())};
     default:

@@ -25,8 +25,10 @@ enum class Topic {
   kStatus,
   kReport,
   kCommand,
+  kServiceHello,
+  kSimulatorHello,
 };
-inline constexpr std::size_t kTopics = 12;
+inline constexpr std::size_t kTopics = 14;
 
 /// Keep-last depths per instance, as in idl/dds/topics.cc and idl/PROTOCOL.md.
 struct TopicDepths {

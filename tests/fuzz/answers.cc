@@ -117,6 +117,9 @@ void CheckOutput(const v1::Output& output) {
     case v1::Output::kServiceStatus:
       dds::ToWire(output.service_status());
       break;
+    case v1::Output::kServiceHello:
+      dds::ToWire(output.service_hello());
+      break;
     case v1::Output::MESSAGE_NOT_SET:
       throw BrokenPromise("an output without a message");
   }

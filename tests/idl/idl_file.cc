@@ -36,7 +36,7 @@ class Reader {
   IdlFile Read() {
     const std::string text = WithoutComments();
     ForEach(text, R"(const unsigned long (\w+) = (\d+);)",
-            [&](const std::smatch& m) { constants_[m[1]] = std::stoul(m[2]); });
+            [&](const std::smatch& m) { file_.constants[m[1]] = std::stoul(m[2]); });
     ForEach(text, R"(struct (\w+) \{([^}]*)\})", [&](const std::smatch& m) {
       for (const std::string& line : Split(m[2], ';')) {
         if (Trimmed(line).empty()) continue;
@@ -59,8 +59,8 @@ class Reader {
   }
 
   std::size_t Number(const std::string& text) const {
-    const auto constant = constants_.find(text);
-    return constant != constants_.end() ? constant->second : std::stoul(text);
+    const auto constant = file_.constants.find(text);
+    return constant != file_.constants.end() ? constant->second : std::stoul(text);
   }
 
   IdlField Field(const std::string& line) const {
@@ -77,7 +77,6 @@ class Reader {
     return {m[3], m[5], 0, false};
   }
 
-  std::map<std::string, std::size_t> constants_;
   IdlFile file_;
 };
 

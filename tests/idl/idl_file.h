@@ -18,6 +18,7 @@ struct IdlField {
 };
 
 struct IdlFile {
+  std::map<std::string, std::size_t> constants;
   std::map<std::string, std::vector<IdlField>> structs;
   std::map<std::string, std::vector<std::string>> enums;
 };

@@ -35,6 +35,18 @@ TEST(Limits, LengthsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("AgentDescription", "assembly"), wire::kNameMax);
   EXPECT_EQ(BoundOf("Tag", "key"), wire::kTagKeyMax);
   EXPECT_EQ(BoundOf("Tag", "value"), wire::kTagValueMax);
+  for (const char* hello : {"ServiceHello", "SimulatorHello"}) {
+    EXPECT_EQ(BoundOf(hello, "frame"), wire::kLabelMax);
+    EXPECT_EQ(BoundOf(hello, "version"), wire::kLabelMax);
+  }
+  EXPECT_EQ(BoundOf("ServiceHello", "world"), wire::kNameMax);
+  EXPECT_EQ(BoundOf("ServiceHello", "epoch_utc"), wire::kLabelMax);
+  EXPECT_EQ(BoundOf("SimulatorHello", "simulator_name"), wire::kNameMax);
+  EXPECT_EQ(BoundOf("ServiceStatus", "frame"), wire::kLabelMax);
+  EXPECT_EQ(BoundOf("ServiceStatus", "epoch_utc"), wire::kLabelMax);
+  for (const char* name : {"simulator_name", "agent_name", "assembly"}) {
+    EXPECT_EQ(BoundOf("AgentLabel", name), wire::kNameMax);
+  }
   EXPECT_EQ(BoundOf("KeyValue", "value"), wire::kExtensionValueMax);
   EXPECT_EQ(BoundOf("ServiceStatus", "broad_phase"), wire::kStatusBroadPhaseMax);
   EXPECT_EQ(BoundOf("ServiceStatus", "broad_phase_why"), wire::kStatusBroadPhaseWhyMax);
@@ -48,10 +60,19 @@ TEST(Limits, CountsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("ServiceStatus", "counters"), count(wire::kStatusCountersMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "left_out"), count(wire::kStatusLeftOutMax));
   EXPECT_EQ(BoundOf("AgentDescription", "tags"), count(wire::kTagsMax));
+  EXPECT_EQ(BoundOf("AgentLabel", "tags"), count(wire::kTagsMax));
+  EXPECT_EQ(BoundOf("ServiceHello", "regions"), count(wire::kRegionsMax));
+  EXPECT_EQ(BoundOf("ServiceHello", "extensions"), count(wire::kHelloExtensionsMax));
+  EXPECT_EQ(BoundOf("SimulatorHello", "extensions"), count(wire::kHelloExtensionsMax));
+  EXPECT_EQ(BoundOf("Watch", "agents"), count(wire::kWatchAgentsMax));
   EXPECT_EQ(BoundOf("CollisionEvent", "extensions"), count(wire::kEventExtensionsMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "extensions"), count(wire::kStatusExtensionsMax));
   EXPECT_EQ(BoundOf("SimulatorReport", "refusals"), count(wire::kReportRefusalsMax));
   EXPECT_EQ(BoundOf("ShapePart", "bytes"), wire::kShapePartBytes);
+}
+
+TEST(Limits, TheRevisionIsThatOfTheIdl) {
+  EXPECT_EQ(Idl().constants.at("WIRE_REVISION"), wire::kWireRevision);
 }
 
 // Goal:   a name that would be another partition, or several, is refused.

@@ -1,6 +1,6 @@
 // Goal:   collision.idl is legal OMG IDL, so that compilers other than Cyclone's take it: those of
 //         omniORB's kind refuse what idlc lets pass, such as a field `topic` of a type `Topic`.
-// Method: omniidl (Debian's, of omniORB) reads the file without annotations, which it does not know.
+// Method: omniidl (Debian's, of omniORB) reads the file without its annotations: it knows none.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

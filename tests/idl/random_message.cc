@@ -79,6 +79,8 @@ class Filler {
     const auto* reflection = message->GetReflection();
     if (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
       Fill(reflection->AddMessage(message, field));
+    } else if (field->cpp_type() == FieldDescriptor::CPPTYPE_UINT32) {
+      reflection->AddUInt32(message, field, static_cast<std::uint32_t>(random_.Next()));
     } else {
       reflection->AddString(message, field, RandomText(random_, random_.Below(20)));
     }

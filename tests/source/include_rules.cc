@@ -85,10 +85,12 @@ const std::vector<Layer>& Layers() {
        {api, validation, "client/mesh/", core + "geometry/mesh/triangle_mesh.h"}},
       {"client/mesh/", {api, validation, "client/mesh/"}},
       {library + "shape/", {"idl/shape_bytes.h", api, library + "shape/"}},
+      {library + "identity/", {core + "base/recent_map.h", "idl/", api, library + "identity/"}},
       {library + "network/",
        {core + "base/recent_map.h", "idl/", api, validation, library + "network/"}},
       {library + "world/",
-       {"idl/", api, validation, library + "deadline.h", library + "network/", library + "world/"}},
+       {"idl/", api, validation, library + "deadline.h", library + "identity/",
+        library + "network/", library + "world/"}},
       {library, {"idl/limits.h", api, validation}},
       {"client/example/", {api}},
       // The checker shares nothing with what it checks but the messages.

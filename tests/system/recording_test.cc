@@ -38,7 +38,7 @@ TEST(Recording, WhatCannotBeReplayedIsOneClearLine) {
   // An entry of four bytes, a header with a format and no more: no field of the configuration is
   // set.
   const std::string unconfigured =
-      folder.Write("unconfigured.rec", std::string("\x04\x0a\x02\x08\x01", 5));
+      folder.Write("unconfigured.rec", std::string("\x04\x0a\x02\x08\x03", 5));
   for (const std::string& file : {garbage, unconfigured, folder.Path("none.rec")}) {
     const Outcome replay = RunToEnd({Program("collisiond"), "--replay", file});
     EXPECT_EQ(replay.status, 74) << file;

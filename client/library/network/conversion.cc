@@ -23,6 +23,11 @@ std::vector<Tag> TagsOf(const google::protobuf::RepeatedPtrField<v1::Tag>& messa
   return tags;
 }
 
+AgentLabel LabelOf(const v1::AgentLabel& message) {
+  return {message.simulator_name(), message.agent_name(), message.assembly(),
+          TagsOf(message.tags())};
+}
+
 SimulatorStatus SimulatorStatusOf(const v1::SimulatorStatus& message) {
   SimulatorStatus status;
   status.simulator = message.simulator_id();
@@ -131,6 +136,8 @@ Event FromMessage(const v1::CollisionEvent& message) {
   Event event;
   event.lower = FromMessage(message.lower());
   event.higher = FromMessage(message.higher());
+  event.lower_label = LabelOf(message.lower_label());
+  event.higher_label = LabelOf(message.higher_label());
   event.contact = message.contact();
   event.revision = message.revision();
   event.now_ns = message.now_ns();

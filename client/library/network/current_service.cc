@@ -57,13 +57,21 @@ const v1::ServiceStamp& StampOf(const v1::Output& output) {
 
 OtherServices::Instance OtherServices::InstanceOf(const v1::Output& output) {
   const auto kind = output.message_case();
+  const auto in = [](std::uint32_t region, std::uint32_t number) {
+    return std::uint64_t{region} << 32 | number;
+  };
   switch (kind) {
     case v1::Output::kClearance:
-      return {kind, {output.clearance().simulator_id(), output.clearance().chunk()}};
+      return {kind,
+              {output.clearance().simulator_id(),
+               in(output.clearance().region(), output.clearance().chunk())}};
     case v1::Output::kCollisionEvent:
-      return {kind, {output.collision_event().pair_slot(), 0}};
+      return {kind,
+              {output.collision_event().pair_slot(), in(output.collision_event().region(), 0)}};
     case v1::Output::kSimulatorReport:
-      return {kind, {output.simulator_report().simulator_id(), 0}};
+      return {
+          kind,
+          {output.simulator_report().simulator_id(), in(output.simulator_report().region(), 0)}};
     default:
       return {kind, {0, 0}};
   }

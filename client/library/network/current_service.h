@@ -104,7 +104,7 @@ class OtherServices {
   bool IsHeard(Time now) const;
 
  private:
-  using Instance = std::pair<v1::Output::MessageCase, std::pair<std::uint64_t, std::uint32_t>>;
+  using Instance = std::pair<v1::Output::MessageCase, std::pair<std::uint64_t, std::uint64_t>>;
   struct Said {
     std::map<Instance, v1::Output> newest;
     std::deque<v1::Output> contacts;

@@ -31,6 +31,10 @@ class DdsTransport : public Transport {
 
   void Write(const v1::Input& message) override {
     switch (message.message_case()) {
+      case v1::Input::kSimulatorHello:
+        return session_.Write(message.simulator_hello());
+      case v1::Input::kWatch:
+        return session_.Write(message.watch());
       case v1::Input::kAgentDescription:
         return session_.Write(message.agent_description());
       case v1::Input::kShapePart:
@@ -81,6 +85,10 @@ std::unique_ptr<Transport> ConnectSimulator(const std::string& world, const std:
 
 std::unique_ptr<Transport> ConnectOperator(const std::string& world, std::uint32_t domain) {
   return std::make_unique<DdsTransport>(Options(DdsRole::kOperator, world, domain));
+}
+
+std::unique_ptr<Transport> ConnectWatcher(const std::string& world, std::uint32_t domain) {
+  return std::make_unique<DdsTransport>(Options(DdsRole::kWatcher, world, domain));
 }
 
 std::unique_ptr<Receiver> ConnectMonitor(const MonitorOptions& options) {

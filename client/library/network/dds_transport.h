@@ -18,6 +18,9 @@ std::unique_ptr<Transport> ConnectSimulator(const std::string& world, const std:
 /// Writes the commands of an operator, reads the service. Throws as above.
 std::unique_ptr<Transport> ConnectOperator(const std::string& world, std::uint32_t domain);
 
+/// Writes what is watched, reads nothing. Throws as above.
+std::unique_ptr<Transport> ConnectWatcher(const std::string& world, std::uint32_t domain);
+
 /// Creates readers only, of the topics that the options select. Throws as above.
 std::unique_ptr<Receiver> ConnectMonitor(const MonitorOptions& options);
 

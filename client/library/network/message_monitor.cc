@@ -34,6 +34,10 @@ std::size_t MessageMonitor::Poll(std::chrono::nanoseconds timeout) {
   now_ = receiver_->Now();
   OrderEvents(&arrivals.outputs);
   for (const v1::Output& output : arrivals.outputs) {
+    if (output.has_service_hello()) Take(output.service_hello());
+  }
+  for (const v1::Output& output : arrivals.outputs) {
+    if (output.has_service_hello() || unreadable_.contains(StampOf(output).service_id())) continue;
     HandOn(output);
     // Reports are handed on, whoever they are from.
     if (StampOf(output).service_id() != service_.id() && !output.has_simulator_report()) {
@@ -44,6 +48,20 @@ std::size_t MessageMonitor::Poll(std::chrono::nanoseconds timeout) {
   for (const v1::Input& input : arrivals.inputs) HandOn(input);
   GiveUpOverdue();
   return arrivals.inputs.size() + arrivals.outputs.size();
+}
+
+void MessageMonitor::Take(const v1::ServiceHello& hello) {
+  constexpr std::size_t kUnreadableMax = 64;
+  if (hello.wire_revision() == wire::kWireRevision) {
+    unreadable_.erase(hello.service_id());
+  } else {
+    if (unreadable_.size() >= kUnreadableMax) unreadable_.clear();
+    unreadable_.insert(hello.service_id());
+    unreadable_text_ = "the service (version " + hello.version() + ") has wire revision " +
+                       std::to_string(hello.wire_revision()) + ", this program " +
+                       std::to_string(wire::kWireRevision) + ": use one version for both";
+  }
+  Call(callbacks_.hello, hello);
 }
 
 void MessageMonitor::HandOn(const v1::Input& input) {

@@ -6,6 +6,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "client/api/monitor.h"
 #include "client/library/network/contact_sequence.h"
@@ -24,6 +26,7 @@ class MessageMonitor {
  public:
   /// Each may be empty.
   struct Callbacks {
+    std::function<void(const v1::ServiceHello&)> hello = {};  ///< Also of another revision.
     std::function<void(const v1::CollisionEvent&)> event = {};
     std::function<void(const v1::EarliestIntersection&)> earliest = {};
     std::function<void(const v1::ServiceStatus&)> status = {};
@@ -48,6 +51,10 @@ class MessageMonitor {
   std::size_t Poll(std::chrono::nanoseconds timeout);
 
   bool service_alive() const { return receiver_->service_alive(); }
+  /// A sentence for people: there is a service of another wire revision, of which nothing is read;
+  /// empty: there is none.
+  const std::string& unreadable() const { return unreadable_text_; }
+
   std::uint64_t contacts_missed() const { return contacts_.missed(); }
   std::uint64_t contacts_repeated() const { return filter_.contacts_repeated(); }
 
@@ -60,6 +67,7 @@ class MessageMonitor {
 
   void HandOn(const v1::Input& input);
   void HandOn(const v1::Output& output);
+  void Take(const v1::ServiceHello& hello);
   bool Accept(const v1::ServiceStamp& stamp, bool followed = true);
   void Await(const v1::ServiceStatus& status);
   void GiveUpOverdue();
@@ -67,6 +75,8 @@ class MessageMonitor {
   std::unique_ptr<Receiver> receiver_;
   Callbacks callbacks_;
   CurrentService service_;
+  std::set<std::uint64_t> unreadable_;  ///< Services of another wire revision.
+  std::string unreadable_text_;
   OtherServices others_;
   CurrentService::Time now_{};
   ContactSequence contacts_;

@@ -35,7 +35,7 @@ class Receiver {
 class Transport : public Receiver {
  public:
   /// A description, states, a clock, a part of a shape, or a removal of an agent or a shape; of an
-  /// operator a command. Never waits for a reader.
+  /// operator a command, of a watcher its watch; a hello. Never waits for a reader.
   virtual void Write(const v1::Input& message) = 0;
 
   /// Sends what was written and is still buffered.

@@ -133,12 +133,26 @@ std::vector<v1::AgentRemoval> AgentTable::Removals() const {
   return removals;
 }
 
-bool AgentTable::IsDue(const Slot& slot, std::int64_t clock_ns) const {
-  return slot.states.IsDue(clock_ns, slot.description.revision(), policy_);
+void AgentTable::Heed(const Watches* watches, Watches::Time now) {
+  watches_ = watches;
+  now_ = now;
+}
+
+bool AgentTable::IsDue(std::uint32_t index, std::int64_t clock_ns) const {
+  const Slot& slot = slots_[index];
+  if (slot.states.IsDue(clock_ns, slot.description.revision(), policy_)) return true;
+  return slot.states.staged()->stamp_ns <= clock_ns && IsWatched(index);
+}
+
+bool AgentTable::IsWatched(std::uint32_t index) const {
+  if (watches_ == nullptr) return false;
+  const auto period =
+      watches_->PeriodOf({simulator_id_, run_, index, slots_[index].description.generation()});
+  return period && now_ - slots_[index].sent_at >= *period;
 }
 
 bool AgentTable::HasNews(std::int64_t clock_ns) const {
-  const auto due = [&](std::uint32_t slot) { return IsDue(slots_[slot], clock_ns); };
+  const auto due = [&](std::uint32_t slot) { return IsDue(slot, clock_ns); };
   return census_changed_ || std::any_of(staged_slots_.begin(), staged_slots_.end(), due);
 }
 
@@ -198,7 +212,8 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
   std::size_t waiting = 0;
   for (const std::uint32_t index : staged_slots_) {
     Slot& slot = slots_[index];
-    if (IsDue(slot, clock_ns)) {
+    if (IsDue(index, clock_ns)) {
+      slot.sent_at = now_;
       stated_ += !slot.states.sent().has_value();
       if (slot.states.sent() && slot.states.staged()->discontinuity) jumped_slots_.push_back(index);
       slot.states.MarkSent(++states_sequence_, slot.description.revision(), policy_);

@@ -9,6 +9,7 @@
 #include "client/api/types.h"
 #include "client/library/world/contract.h"
 #include "client/library/world/publish_policy.h"
+#include "client/library/world/watches.h"
 #include "idl/messages.pb.h"
 
 namespace collision::client {
@@ -38,6 +39,10 @@ class AgentTable {
 
   /// The removal is a description, too: it takes the next number of these.
   v1::AgentRemoval Remove(const AgentId& id);
+
+  /// Somebody looks at agents: their newest states are due, too, a period after the last that was
+  /// sent. As of `now`; `watches` holds until the next call, null: nobody does.
+  void Heed(const Watches* watches, Watches::Time now);
 
   /// Whether TakeDue() or a clock sample would say anything new at this clock.
   bool HasNews(std::int64_t clock_ns) const;
@@ -94,6 +99,7 @@ class AgentTable {
     OutgoingStates states;
     std::uint32_t lowerings = 0;              ///< Of its clearance, as last heard.
     std::uint32_t acknowledged_revision = 0;  ///< Likewise.
+    Watches::Time sent_at{};                  ///< When a state was sent last.
   };
 
   std::int64_t HeldBack(std::int64_t clock_ns) const;
@@ -102,7 +108,8 @@ class AgentTable {
   std::vector<std::uint32_t> FreeRemoved();
   void Free(std::uint32_t slot);
   v1::AgentRemoval RemovalOf(std::uint32_t slot) const;
-  bool IsDue(const Slot& slot, std::int64_t clock_ns) const;
+  bool IsDue(std::uint32_t index, std::int64_t clock_ns) const;
+  bool IsWatched(std::uint32_t index) const;
   v1::AgentState Message(std::uint32_t slot, const State& state, std::uint64_t sequence) const;
   v1::AgentStates Chunk(std::uint32_t chunk) const;
 
@@ -125,6 +132,8 @@ class AgentTable {
   std::uint64_t states_sequence_ = 0;
   std::uint64_t standing_sequence_ = 0;  ///< The highest of a state that its agent still has.
   std::uint64_t descriptions_sequence_ = 0;
+  const Watches* watches_ = nullptr;
+  Watches::Time now_{};  ///< Of the last Heed().
   Traffic traffic_;
   bool census_changed_ = false;  ///< Descriptions or agents differ from the last clock sample.
 };

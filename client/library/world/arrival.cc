@@ -112,6 +112,10 @@ std::string EndText(const std::string& simulator, const Arrival& arrival) {
     case v1::RUN_RESTARTED:
       return "an operator has restarted the world's time: start \"" + simulator +
              "\" again to be in it";
+    case v1::RUN_REFUSED:
+      return "the service refuses \"" + simulator +
+             "\": its clock kind, frame or version does not "
+             "fit; the refusal says which";
     default:
       return "";
   }

@@ -98,6 +98,8 @@ std::uint64_t World::contacts_missed() const { return implementation_->contacts_
 
 const Traffic& World::traffic() const { return implementation_->traffic(); }
 
+std::string World::Name(const AgentId& id) const { return implementation_->Name(id); }
+
 std::string World::ended_because() const { return implementation_->ended_because(); }
 std::string World::waits_for_name() const { return implementation_->waits_for_name(); }
 

@@ -52,17 +52,23 @@ bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   const CurrentService::Time now = transport_->Now();
   OrderEvents(&arrivals.outputs);
   for (const v1::Output& output : arrivals.outputs) {
+    if (output.has_service_hello()) Handle(output.service_hello());
+  }
+  for (const v1::Output& output : arrivals.outputs) {
+    if (output.has_service_hello() || fit_.IsUnfit(StampOf(output).service_id())) continue;
     Handle(output, now);
     if (StampOf(output).service_id() != service_.id()) others_.Keep(output, now);
   }
   // The end of a service comes after all that it wrote.
   for (const v1::Input& input : arrivals.inputs) {
+    if (input.has_watch()) watches_.Hear(input.watch(), now);
     if (!input.has_service_heard() || !service_.Hear(input.service_heard())) continue;
     for (const v1::Output& status : others_.Statuses(now)) Handle(status, now);
   }
   const std::uint64_t forecast = lock_step_ ? forecasts_.newest() : ClearanceGate::kAllForecasts;
   const std::vector<v1::Clearance> passed = gate_.Take(&contacts_, forecast, now);
   for (const v1::Clearance& clearance : passed) Handle(clearance);
+  Heed();
   Watch(now);
   DropOldEvents();
   return !arrivals.outputs.empty() || !passed.empty();
@@ -89,16 +95,9 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
       }
       break;
     }
-    case v1::Output::kRejection: {
-      const v1::Rejection& rejection = output.rejection();
-      if (rejection.simulator_id() != simulator_id_ || rejection.run() != run_) break;
-      if (!IsForThis(rejection.incarnation())) break;
-      if (!Accept(rejection.stamp(), rejection.now_ns(), now)) break;
-      if (rejection.reason() == v1::REJECTED_TOO_MANY_SIMULATORS) arrival_.HearOfNoRoom();
-      if (rejections_.size() == kRejectionsMax) rejections_.pop_front();
-      rejections_.push_back(FromMessage(rejection));
+    case v1::Output::kRejection:
+      Handle(output.rejection(), now);
       break;
-    }
     case v1::Output::kSimulatorReport:
       if (Accept(output.simulator_report().stamp(), output.simulator_report().now_ns(), now)) {
         Handle(output.simulator_report(), now);
@@ -117,6 +116,41 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
   }
 }
 
+void World::Implementation::Handle(const v1::Rejection& rejection, CurrentService::Time now) {
+  if (rejection.simulator_id() != simulator_id_ || !IsForThis(rejection.incarnation())) return;
+  const bool is_of_run = rejection.topic() != v1::TOPIC_SIMULATOR_HELLO;
+  if (is_of_run && rejection.run() != run_) return;
+  if (!Accept(rejection.stamp(), rejection.now_ns(), now)) return;
+  if (rejection.reason() == v1::REJECTED_TOO_MANY_SIMULATORS) arrival_.HearOfNoRoom();
+  Keep(FromMessage(rejection));
+}
+
+void World::Implementation::Handle(const v1::ServiceHello& hello) {
+  simulated_clock_ = hello.clock_kind() == v1::CLOCK_LOCK_STEP;
+  if (auto mismatch = fit_.Hear(hello)) {
+    mismatch->simulator = simulator_id_;
+    Keep(*mismatch);
+  }
+}
+
+void World::Implementation::Keep(const Rejection& rejection) {
+  if (rejections_.size() == kRejectionsMax) rejections_.pop_front();
+  rejections_.push_back(rejection);
+}
+
+void World::Implementation::Heed() {
+  const CurrentService::Time now = transport_->Now();
+  watches_.Expire(now);
+  agents_.Heed(watches_.empty() ? nullptr : &watches_, now);
+}
+
+std::string World::Implementation::ended_because() const {
+  const std::string text = EndText(name_, arrival_);
+  return text.empty() ? fit_.Text() : text;
+}
+
+std::string World::Implementation::Name(const AgentId& id) { return names_.Of(id); }
+
 /// Clearances of this run are younger than this program, so they tell whether it was there before
 /// the first contact.
 void World::Implementation::AddToGate(const v1::Clearance& clearance, CurrentService::Time now) {
@@ -126,7 +160,8 @@ void World::Implementation::AddToGate(const v1::Clearance& clearance, CurrentSer
   gate_.Add(clearance, now);
 }
 
-void World::Implementation::Handle(const v1::Clearance& clearance) {
+void World::Implementation::Handle(const v1::Clearance& told) {
+  const v1::Clearance& clearance = least_.Take(told, fit_.RegionsOf(told.stamp().service_id()));
   // All chunks carry the grant. The service writes chunk 0 after the others, so a simulator that
   // takes the grant from there knows all clearances as of that time, and which states are wanted.
   // With a wall clock there is no grant.
@@ -154,6 +189,7 @@ bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t n
   if (service_.id() != id) {
     ChangeService(id);
     gate_.Clear();
+    least_.Clear();
     clearances_sequence_ = 0;
     service_is_new_ = id != 0;
     agents_.BeginService();
@@ -199,6 +235,8 @@ Clearance World::Implementation::clearance(const AgentId& id) const {
 }
 
 void World::Implementation::Handle(const v1::CollisionEvent& event) {
+  names_.Hear(FromMessage(event.lower()), event.lower_label().agent_name());
+  names_.Hear(FromMessage(event.higher()), event.higher_label().agent_name());
   const bool own = IsOwn(event.lower()) || IsOwn(event.higher());
   if (lock_step_ && event.contacts_sequence() == 0) {
     forecasts_.Hear(event);
@@ -222,7 +260,7 @@ void World::Implementation::Handle(const v1::SimulatorReport& report, Arrival::T
 }
 
 std::vector<Rejection> World::Implementation::standing_refusals() const {
-  std::vector<Rejection> refusals;
+  std::vector<Rejection> refusals = fit_.Unfit();
   if (!arrival_.own()) return refusals;
   for (const v1::StandingRefusal& refusal : arrival_.own()->refusals()) {
     refusals.push_back(FromMessage(refusal, *arrival_.own()));

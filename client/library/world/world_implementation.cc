@@ -66,7 +66,13 @@ World::Implementation::Implementation(const WorldOptions& options,
       agents_(options.simulator, simulator_id_, run_, arrival_.incarnation(), PolicyOf(options)),
       shapes_(simulator_id_, run_, arrival_.incarnation()),
       gate_(options.lock_step ? ClearanceGate::kPatienceInLockStep : ClearanceGate::kPatience),
-      wall_clock_(options.wall_clock ? options.wall_clock : SystemClockNs) {}
+      wall_clock_(options.wall_clock ? options.wall_clock : SystemClockNs),
+      fit_({options.simulator, options.lock_step, options.frame}) {
+  v1::Input message;
+  *message.mutable_simulator_hello() = HelloOf(
+      {options.simulator, options.lock_step, options.frame}, simulator_id_, arrival_.incarnation());
+  transport_->Write(message);
+}
 
 bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("WaitForService()");
@@ -83,6 +89,7 @@ AgentId World::Implementation::AddAgent(const AgentDescription& description, con
   Validate(description);
   Validate(state);
   const AgentId id = agents_.Add(description, state);
+  names_.Hear(id, description.name);
   shapes_.Add(description.shape, Writer());
   WriteDescription(id);
   return id;
@@ -253,6 +260,7 @@ void World::Implementation::Reach(std::int64_t clock_ns) {
 
 void World::Implementation::WriteDue(std::int64_t clock_ns) {
   v1::Input message;
+  Heed();
   for (v1::AgentStates& chunk : agents_.TakeDue(clock_ns)) {
     *message.mutable_agent_states() = std::move(chunk);
     transport_->Write(message);

@@ -12,6 +12,9 @@
 
 #include "client/api/world.h"
 #include "client/library/deadline.h"
+#include "client/library/identity/agent_names.h"
+#include "client/library/identity/region_least.h"
+#include "client/library/identity/service_fit.h"
 #include "client/library/network/clearance_gate.h"
 #include "client/library/network/current_service.h"
 #include "client/library/network/held_forecasts.h"
@@ -22,6 +25,7 @@
 #include "client/library/world/service_echo.h"
 #include "client/library/world/shape_publisher.h"
 #include "client/library/world/waiting_list.h"
+#include "client/library/world/watches.h"
 
 namespace collision::client {
 
@@ -78,7 +82,8 @@ class World::Implementation {
   std::uint64_t contacts_missed() const { return contacts_.missed(); }
   std::uint32_t run() const { return run_; }
   std::string waits_for_name() const { return OtherText(name_, arrival_); }
-  std::string ended_because() const { return EndText(name_, arrival_); }
+  std::string ended_because() const;
+  std::string Name(const AgentId& id);
   std::vector<Rejection> standing_refusals() const;
   const Traffic& traffic() const { return agents_.traffic(); }
 
@@ -137,6 +142,11 @@ class World::Implementation {
   /// False: nothing has arrived.
   bool Gather(std::chrono::nanoseconds timeout);
   void Handle(const v1::Output& output, CurrentService::Time now);
+  void Handle(const v1::ServiceHello& hello);
+  void Handle(const v1::Rejection& rejection, CurrentService::Time now);
+  void Keep(const Rejection& rejection);
+  /// What is watched is due as of now.
+  void Heed();
   void AddToGate(const v1::Clearance& clearance, CurrentService::Time now);
   void Handle(const v1::Clearance& clearance);
   void Handle(const v1::CollisionEvent& event);
@@ -178,6 +188,10 @@ class World::Implementation {
   FormerService former_;
   std::function<std::int64_t()> wall_clock_;
   ServiceEcho echo_;
+  ServiceFit fit_;
+  RegionLeast least_;
+  AgentNames names_;
+  Watches watches_;
 
   std::int64_t clock_ns_ = kBeforeAll;
   std::int64_t granted_until_ns_ = kBeforeAll;

@@ -136,9 +136,9 @@ void Pace::TakeRefusals() {
   if (!other_.empty() && former.empty()) std::fprintf(stderr, "%s\n", other_.c_str());
   if (world_.granted_until_ns() > granted_ns_) refusals_.Granted();
   granted_ns_ = world_.granted_until_ns();
+  RequireClock();
   const std::string ended = world_.ended_because();
   if (!ended.empty()) throw RefusedError(ended);
-  RequireClock();
 }
 
 void Pace::RequireClock() const {

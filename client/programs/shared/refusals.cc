@@ -14,7 +14,8 @@ const std::set<std::string> kFatal = {"REJECTED_NOT_FINITE",      "REJECTED_OUT_
                                       "REJECTED_ID_MISMATCH",     "REJECTED_FUTURE_STAMP",
                                       "REJECTED_TOO_MANY_AGENTS", "REJECTED_TOO_MANY_SIMULATORS",
                                       "REJECTED_OLD_RUN",         "REJECTED_CLOCK_BEYOND_GRANT",
-                                      "REJECTED_CHUNK_TOO_LARGE", "REJECTED_BAD_SHAPE"};
+                                      "REJECTED_CHUNK_TOO_LARGE", "REJECTED_BAD_SHAPE",
+                                      "REJECTED_MISMATCH"};
 
 }  // namespace
 

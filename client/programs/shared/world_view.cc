@@ -62,6 +62,8 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
   };
   callbacks.earliest = [this](const v1::EarliestIntersection& earliest) { earliest_ = earliest; };
   callbacks.event = [this](const v1::CollisionEvent& event) {
+    KeepLabel(event.lower(), event.lower_label());
+    KeepLabel(event.higher(), event.higher_label());
     events_.push_back(event);
     if (event.contacts_sequence() > 0) ++contacts_;
   };
@@ -246,6 +248,14 @@ void WorldView::KeepSimulatorName(std::uint64_t id, const std::string& name) {
   if (!name.empty() && simulator_names_.size() < kSimulatorNamesMax) {
     simulator_names_.try_emplace(id, name);
   }
+}
+
+/// An event may come before the descriptions, or of agents that had left before this monitor came.
+void WorldView::KeepLabel(const v1::AgentId& id, const v1::AgentLabel& label) {
+  if (label.simulator_name().empty()) return;
+  KeepSimulatorName(id.simulator_id(), label.simulator_name());
+  names_.try_emplace(FromMessage(id), label.agent_name());
+  if (names_.size() > kNamesMax) names_.erase(names_.begin());
 }
 
 void WorldView::Handle(const v1::AgentDescription& description) {

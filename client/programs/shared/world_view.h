@@ -96,8 +96,8 @@ class WorldView {
   /// Whether it knows as many agents as the service says it has.
   bool knows_all_agents() const;
 
-  /// The agent's name as it was first described, also after it or its simulator has left;
-  /// "simulator:slot" if it was never described. A simulator keeps its name likewise.
+  /// The agent's name as an event or its first description says, also after it or its simulator has
+  /// left; "simulator:slot" if it was never described. A simulator keeps its name likewise.
   std::string Name(const AgentId& id) const;
   bool IsNamed(const AgentId& id) const;
 
@@ -119,6 +119,7 @@ class WorldView {
   void Handle(const v1::AgentStates& states);
   void Handle(const v1::Clearance& clearance);
   void ForgetFormerRuns(std::uint64_t simulator, std::uint32_t run);
+  void KeepLabel(const v1::AgentId& id, const v1::AgentLabel& label);
   void KeepSimulatorName(std::uint64_t id, const std::string& name);
   std::string SimulatorName(std::uint64_t id) const;
   AgentPresence PresenceOf(const v1::AgentDescription& description) const;

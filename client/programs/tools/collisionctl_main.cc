@@ -9,8 +9,10 @@
 #include "client/api/pending_names.h"
 #include "client/library/deadline.h"
 #include "client/library/network/conversion.h"
+#include "client/library/network/dds_transport.h"
 #include "client/library/validation.h"
 #include "client/programs/shared/exit_code.h"
+#include "client/programs/tools/collisionctl/agents_watcher.h"
 #include "client/programs/tools/collisionctl/json_pages.h"
 #include "client/programs/tools/collisionctl/operator_request.h"
 #include "client/programs/tools/collisionctl/service_notes.h"
@@ -35,6 +37,8 @@ struct Options {
   double timeout_s = 3;
   bool json = false;
   bool follow = false;
+  bool watch = false;
+  double period_s = 1;
 };
 
 /// Gathers the values that late readers receive, until `enough` and quiet, or until the deadline.
@@ -113,6 +117,27 @@ void Follow(MessageMonitor* monitor, WorldView* view, bool json) {
   std::cerr << ContactsSummary(view->contacts(), monitor->contacts_missed()) << '\n';
 }
 
+std::chrono::nanoseconds Seconds(double seconds) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(seconds));
+}
+
+/// Prints the agents once a period, with states that are no older, until Ctrl-C.
+void WatchAgents(MessageMonitor* monitor, const WorldView& view, const Options& options) {
+  const std::chrono::nanoseconds period = Seconds(options.period_s);
+  AgentsWatcher watcher(ConnectWatcher(options.monitor.world, options.monitor.domain), period);
+  auto due = std::chrono::steady_clock::now() + period;
+  while (stopped == 0 && std::cout) {
+    const auto now = std::chrono::steady_clock::now();
+    watcher.Repeat(now);
+    if (now >= due) {
+      due = now + period;
+      std::cout << (options.json ? AgentsJson(view) : AgentsPage(view)) << std::endl;
+    }
+    monitor->Poll(std::min<std::chrono::nanoseconds>(kFollowWait, due - now));
+  }
+}
+
 void Print(const std::string& command, const Options& options, WorldView* view) {
   if (command == "events") return PrintEvents(view->TakeNewestRevisions(), *view, options.json);
   if (command == "status") {
@@ -122,7 +147,7 @@ void Print(const std::string& command, const Options& options, WorldView* view) 
   } else if (command == "shapes") {
     std::cout << (options.json ? ShapesJson(*view) + "\n" : ShapesPage(*view));
   } else if (options.json) {
-    std::cout << (view->earliest() ? Json(*view->earliest()) : "{}") << '\n';
+    std::cout << EarliestJson(*view) << '\n';
   } else {
     std::cout << EarliestPage(*view);
   }
@@ -131,10 +156,13 @@ void Print(const std::string& command, const Options& options, WorldView* view) 
 int Run(const std::string& command, const Options& options) {
   WorldView view;
   MessageMonitor monitor(options.monitor, view.Callbacks());
-  const std::chrono::duration<double> timeout(options.timeout_s);
-  const Deadline deadline(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
+  const Deadline deadline(Seconds(options.timeout_s));
   if (!WaitForService(&monitor, view, deadline)) {
     if (stopped != 0) return 0;
+    if (!monitor.unreadable().empty()) {
+      std::cerr << "collisionctl: " << monitor.unreadable() << '\n';
+      return kExitUnavailable;
+    }
     std::cerr << "collisionctl: no service in world \"" << options.monitor.world << "\" on domain "
               << options.monitor.domain << " within " << options.timeout_s << " s\n";
     return kExitUnavailable;
@@ -151,7 +179,9 @@ int Run(const std::string& command, const Options& options) {
     std::cerr << "collisionctl: not all agents were heard within " << options.timeout_s
               << " s: what follows may be incomplete; --timeout sets how long to wait\n";
   }
-  if (options.follow) {
+  if (options.watch) {
+    WatchAgents(&monitor, view, options);
+  } else if (options.follow) {
     Follow(&monitor, &view, options.json);
   } else {
     Print(command, options, &view);
@@ -167,6 +197,7 @@ Examples:
   collisionctl status                   health of the service, simulators, refusals
   collisionctl earliest                 the pair that can touch first, and the earliest time for it
   collisionctl agents                   every agent, and how long it is clear
+  collisionctl agents --watch           likewise every second, with fresh states, until Ctrl-C
   collisionctl shapes                   every shape: owner, triangles and solids, parts received
   collisionctl events                   the current revision of every event
   collisionctl events --follow          one line per revision as it comes, until Ctrl-C
@@ -193,7 +224,14 @@ void AddViews(CLI::App* app, Options* options) {
   app->fallthrough();
   app->footer(kExamples);
   app->add_subcommand("status", "Service, clock, simulators, broad phase and why, refusals");
-  app->add_subcommand("agents", "Table of all agents");
+  CLI::App* agents = app->add_subcommand("agents", "Table of all agents");
+  CLI::Option* watch = agents->add_flag(
+      "--watch", options->watch,
+      "Print it again and again; meanwhile simulators send states at least once a period");
+  agents->add_option("--period", options->period_s, "Seconds between two tables, 0.02 to 3600")
+      ->check(CLI::Range(1e-9 * wire::kWatchPeriodMin, 1e-9 * wire::kWatchPeriodMax))
+      ->needs(watch)
+      ->capture_default_str();
   app->add_subcommand("shapes", "Table of all shapes that agents have");
   app->add_subcommand("earliest", "The earliest intersection that is possible now");
   app->add_subcommand("events", "The current events")

@@ -18,6 +18,8 @@ const char* ExplanationOf(EndCause cause) {
       return "was evicted by an operator";
     case EndCause::kRestarted:
       return "has ended: an operator restarted the world's time";
+    case EndCause::kRefused:
+      return "was refused: its hello does not fit";
   }
   return "has ended";
 }
@@ -32,6 +34,8 @@ const char* NameOf(EndCause cause) {
       return "evicted";
     case EndCause::kRestarted:
       return "restarted";
+    case EndCause::kRefused:
+      return "refused";
   }
   return "ended";
 }
@@ -93,7 +97,8 @@ std::vector<EndedRun> EndedRunsIn(const std::string& text) {
     if (id.ec != std::errc() || id.ptr == end || *id.ptr != ':') continue;
     const auto run = std::from_chars(id.ptr + 1, end, ended.run);
     if (run.ec != std::errc() || run.ptr == end || *run.ptr != ':') continue;
-    for (const EndCause cause : {EndCause::kSilent, EndCause::kEvicted, EndCause::kRestarted}) {
+    for (const EndCause cause :
+         {EndCause::kSilent, EndCause::kEvicted, EndCause::kRestarted, EndCause::kRefused}) {
       ended.cause = cause;
       if (std::string_view(run.ptr + 1, end) == NameOf(cause)) runs.push_back(ended);
     }

@@ -12,12 +12,13 @@ namespace collision::server {
 
 /// Why a run was ended by the service.
 enum class EndCause {
-  kSilent,    ///< Its simulator was silent for `remove_silent_after_s`.
-  kEvicted,   ///< An operator removed its simulator.
-  kRestarted  ///< An operator let the world's time begin anew.
+  kSilent,     ///< Its simulator was silent for `remove_silent_after_s`.
+  kEvicted,    ///< An operator removed its simulator.
+  kRestarted,  ///< An operator let the world's time begin anew.
+  kRefused     ///< Its hello does not fit the service.
 };
 
-/// As it stands in the extension `because` of an event: "silent", "evicted", "restarted".
+/// As in the extension `because` of an event: "silent", "evicted", "restarted", "refused".
 const char* NameOf(EndCause cause);
 
 /// A run of a simulator that has been ended.

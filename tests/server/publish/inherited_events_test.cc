@@ -66,11 +66,11 @@ TEST(InheritedEvents, WhatWasNotToldIs) {
   events.Hear(Told(1, v1::EVENT_CONFIRMED, 100));
   events.Keep(Found(1, EventStatus::kEnded, 100));
   events.Keep(Found(2, EventStatus::kConfirmed, 500));
-  const std::vector<CollisionEvent> untold = events.TakeUntold();
+  const std::vector<UntoldContact> untold = events.TakeUntold();
   ASSERT_EQ(untold.size(), 2u);
-  EXPECT_EQ(untold[0].status, EventStatus::kEnded);
-  EXPECT_EQ(events.NumberOf(untold[0]), 1u);
-  EXPECT_EQ(events.NumberOf(untold[1]), 2u);
+  EXPECT_EQ(untold[0].event.status, EventStatus::kEnded);
+  EXPECT_EQ(events.NumberOf(untold[0].event), 1u);
+  EXPECT_EQ(events.NumberOf(untold[1].event), 2u);
   EXPECT_TRUE(events.TakeUntold().empty());
 }
 
@@ -108,9 +108,9 @@ TEST(InheritedEvents, AForecastHidesNoContact) {
   events.Keep(Found(1, EventStatus::kEnded, 100));
   EXPECT_TRUE(events.TakeUntold().empty());
   events.Keep(Found(1, EventStatus::kConfirmed, 600));
-  const std::vector<CollisionEvent> untold = events.TakeUntold();
+  const std::vector<UntoldContact> untold = events.TakeUntold();
   ASSERT_EQ(untold.size(), 1u) << "it joined after the first";
-  EXPECT_EQ(events.NumberOf(untold[0]), 2u) << "goes on with the forecast";
+  EXPECT_EQ(events.NumberOf(untold[0].event), 2u) << "goes on with the forecast";
   EXPECT_EQ(events.NumberOf(Found(2, EventStatus::kPossible, 900)), 3u);
 }
 
@@ -146,9 +146,9 @@ TEST(InheritedEvents, AContactIsNotTakenForAForecastThatCameToNothing) {
   InheritedEvents events;
   events.Hear(Told(1, v1::EVENT_DISMISSED, 100));
   events.Keep(Found(2, EventStatus::kConfirmed, 100));
-  const std::vector<CollisionEvent> untold = events.TakeUntold();
+  const std::vector<UntoldContact> untold = events.TakeUntold();
   ASSERT_EQ(untold.size(), 1u);
-  EXPECT_EQ(events.NumberOf(untold[0]), 2u);
+  EXPECT_EQ(events.NumberOf(untold[0].event), 2u);
 }
 
 TEST(InheritedEvents, AForecastThatCameLateDoesNotReopenAContact) {
@@ -165,9 +165,9 @@ TEST(InheritedEvents, OfTooManyTheOldestIsGivenUp) {
   for (std::uint32_t i = 0; i <= InheritedEvents::kUntoldMax; ++i) {
     events.Keep(Found(i + 1, EventStatus::kConfirmed, i));
   }
-  const std::vector<CollisionEvent> untold = events.TakeUntold();
+  const std::vector<UntoldContact> untold = events.TakeUntold();
   ASSERT_EQ(untold.size(), InheritedEvents::kUntoldMax);
-  EXPECT_EQ(untold.front().contact, 2u);
+  EXPECT_EQ(untold.front().event.contact, 2u);
 }
 
 /// Of a pair of its own.
@@ -188,10 +188,10 @@ TEST(InheritedEvents, WhatIsHeardCostsNothingForOtherPairs) {
     told.mutable_higher()->set_slot(slot);
     events.Hear(told);
   }
-  const std::vector<CollisionEvent> untold = events.TakeUntold();
+  const std::vector<UntoldContact> untold = events.TakeUntold();
   ASSERT_EQ(untold.size(), 10u);
   for (std::uint32_t i = 0; i < 10; ++i)
-    EXPECT_EQ(untold[i].higher.slot, 2 + i) << "in their order";
+    EXPECT_EQ(untold[i].event.higher.slot, 2 + i) << "in their order";
 }
 
 // A standby that stood still has missed states, and cannot exclude what the other one could.
@@ -209,11 +209,11 @@ TEST(InheritedEvents, WhatIsOverAndWasNeverCertainIsDroppedOnceTheOtherServiceIs
   events.Keep(Found(2, EventStatus::kEnded, 120));
   events.DropUndecided(Instant::FromNanoseconds(200));
   events.Keep(undecided(90, 5));
-  const std::vector<CollisionEvent> untold = events.TakeUntold();
+  const std::vector<UntoldContact> untold = events.TakeUntold();
   ASSERT_EQ(untold.size(), 3u);
-  EXPECT_EQ(untold[0].higher.slot, 4u);
-  EXPECT_EQ(untold[1].status, EventStatus::kConfirmed);
-  EXPECT_EQ(untold[2].status, EventStatus::kEnded);
+  EXPECT_EQ(untold[0].event.higher.slot, 4u);
+  EXPECT_EQ(untold[1].event.status, EventStatus::kConfirmed);
+  EXPECT_EQ(untold[2].event.status, EventStatus::kEnded);
 }
 
 v1::CollisionEvent InEpoch(std::uint32_t epoch, v1::CollisionEvent event) {
@@ -231,9 +231,9 @@ TEST(InheritedEvents, WhatWasToldInAnotherEpochIsNotTold) {
   EXPECT_EQ(events.NumberOf(Found(1, EventStatus::kPossible, 90)), 1u);
   events.Hear(InEpoch(1, Told(1, v1::EVENT_ENDED, 100)));  // It was on its way.
   events.Keep(Found(1, EventStatus::kEnded, 100));
-  const std::vector<CollisionEvent> untold = events.TakeUntold();
+  const std::vector<UntoldContact> untold = events.TakeUntold();
   ASSERT_EQ(untold.size(), 1u);
-  EXPECT_EQ(untold[0].contact, 1u);
+  EXPECT_EQ(untold[0].event.contact, 1u);
 }
 
 // It may begin its epoch before this service does.

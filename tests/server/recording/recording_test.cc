@@ -167,8 +167,12 @@ TEST_F(RecordingTest, RefusesOtherFiles) {
   EXPECT_EQ(RefusalOf("# Shared by all programs of the world.\nworld: \"default\"\n"),
             path_ + ": byte 0: not a recording");
   EXPECT_EQ(RefusalOf(std::string(1, '\0')), path_ + ": byte 0: not a recording: it has no header");
-  EXPECT_EQ(RefusalOf(std::string("\x04\x0a\x02\x08\x03", 5)),
-            path_ + ": byte 0: format 3; this program reads formats 1 to 2");
+  // A header of format 2, by version "0.0.1".
+  EXPECT_EQ(RefusalOf("\x0b\x0a\x09\x08\x02\x12\x05"
+                      "0.0.1"),
+            path_ +
+                ": byte 0: format 2, written by version \"0.0.1\"; this program reads format 3 "
+                "only: replay it with the version that wrote it");
   EXPECT_EQ(RefusalOf(std::string("\xff\xff\xff\xff\xff\xff", 6)),
             path_ + ": byte 0: damaged: not a valid entry length");
   EXPECT_THROW(RecordingReader(path_ + ".missing"), std::runtime_error);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "client/api/shape.h"
+#include "client/library/network/conversion.h"
 
 namespace collision::client {
 namespace {
@@ -48,6 +49,17 @@ std::string StatusJson(const WorldView& view) {
 std::string MissedJson(std::uint64_t more, std::uint64_t so_far) {
   return "{\"contacts_missed\":\"" + std::to_string(more) + "\",\"contacts_missed_so_far\":\"" +
          std::to_string(so_far) + "\"}";
+}
+
+std::string EarliestJson(const WorldView& view) {
+  if (!view.earliest()) return "{}";
+  std::string json = Json(*view.earliest());
+  if (!view.earliest()->found()) return json;
+  google::protobuf::Value lower, higher;  // Adds quotes and escapes.
+  lower.set_string_value(view.Name(FromMessage(view.earliest()->lower())));
+  higher.set_string_value(view.Name(FromMessage(view.earliest()->higher())));
+  json.pop_back();
+  return json + ",\"lower_name\":" + Json(lower) + ",\"higher_name\":" + Json(higher) + "}";
 }
 
 std::string AgentsJson(const WorldView& view) {

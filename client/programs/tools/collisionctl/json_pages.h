@@ -19,6 +19,9 @@ std::string StatusJson(const WorldView& view);
 /// "contacts_missed_so_far": "in all"}
 std::string MissedJson(std::uint64_t more, std::uint64_t so_far);
 
+/// The earliest intersection with the names of its agents, or {}.
+std::string EarliestJson(const WorldView& view);
+
 /// {"agents": [{"description": AgentDescription, "state": AgentState, "clearance": AgentClearance},
 /// ...]}, without the parts that are not known. Where an agent is not simply there, it has
 /// "presence": "silent", "waited_for", "not_held", "evicted" or "removed_silent". Where agents are

@@ -225,6 +225,8 @@ std::string StatusPage(const WorldView& view) {
   std::string page =
       Troubles(view) + ServicesTable(view) + "\n" + Line("world", status.world()) +
       Line("clock", status.simulated_clock() ? "simulated" : "wall") +
+      (status.frame().empty() ? "" : Line("frame", status.frame())) +
+      (status.epoch_utc().empty() ? "" : Line("epoch", status.epoch_utc())) +
       Line("now", SinceText(status.now_ns())) + Notes(kFacts, status) +
       Line("agents", std::to_string(status.agents()) + ", " +
                          std::to_string(status.pairs_tracked()) + " pairs tracked") +

@@ -68,6 +68,10 @@ TEST_F(EventsTest, AllFieldsArrive) {
   event.set_level(12);
   event.set_work_units(13);
   event.set_limited_by(v1::LIMIT_GEOMETRY);
+  event.mutable_lower_label()->set_simulator_name(kSimulator);
+  event.mutable_higher_label()->set_agent_name("bob");
+  event.mutable_higher_label()->set_assembly("arm");
+  event.mutable_higher_label()->add_tags()->set_key("kind");
   v1::KeyValue* because = event.add_extensions();
   because->set_key("because");
   because->set_value("silent");
@@ -76,6 +80,11 @@ TEST_F(EventsTest, AllFieldsArrive) {
   const Event received = world_.TakeEvents().at(0);
   EXPECT_EQ(received.lower, (AgentId{SimulatorId(kSimulator), kRun, 0, 1}));
   EXPECT_EQ(received.higher.simulator, 1u);
+  EXPECT_EQ(received.lower_label.simulator, kSimulator);
+  EXPECT_EQ(received.higher_label.name, "bob");
+  EXPECT_EQ(received.higher_label.assembly, "arm");
+  EXPECT_EQ(received.higher_label.tags, (std::vector<Tag>{{"kind", ""}}));
+  EXPECT_EQ(world_.Name(received.higher), "bob");
   EXPECT_EQ(received.contact, 3u);
   EXPECT_EQ(received.revision, 4u);
   EXPECT_EQ(received.now_ns, 1);

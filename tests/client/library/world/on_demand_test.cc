@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "idl/limits.h"
 #include "tests/client/fake_transport.h"
 
 namespace collision::client {
@@ -101,6 +102,29 @@ TEST_F(OnDemandTest, TheLastStateBeforeItIsWantedGoesOut) {
   EXPECT_EQ(Fly(90, 90), Stamps{90});
   ServiceSays({.now_ns = 90, .wanted_ns = kNever, .acknowledged = 3});
   EXPECT_EQ(Fly(100, 2000), Stamps{});
+}
+
+// Nobody looks: as rare as before. Then for every second step a period has passed, by a clock that
+// the test sets forward far more than a slow machine takes.
+TEST_F(OnDemandTest, AWatchedAgentIsSentOnceAPeriodWhileItIsWatched) {
+  Start();
+  ServiceSays({.now_ns = 0, .wanted_ns = kNever, .acknowledged = 1});
+  EXPECT_EQ(Fly(10, 100), Stamps{});
+  v1::Watch watch;
+  watch.set_watcher_id(1);
+  watch.set_period_ns(std::chrono::nanoseconds(hours(1)).count());
+  watch.set_lease_ns(wire::kWatchLeaseMax);
+  watch.set_all(true);
+  Stamps sent;
+  for (std::int64_t t = 110; t <= 180; t += kStep) {
+    network_->later += std::chrono::minutes(31);
+    *network_->heard.emplace_back().mutable_watch() = watch;
+    world_->Poll();
+    for (const std::int64_t stamp : Fly(t, t)) sent.push_back(stamp);
+  }
+  EXPECT_EQ(sent, (Stamps{120, 140, 160, 180}));
+  network_->later += std::chrono::hours(2);
+  EXPECT_EQ(Fly(190, 200), Stamps{}) << "the lease is over";
 }
 
 TEST_F(OnDemandTest, WantedAtOnceMeansEveryStep) {

@@ -1,0 +1,68 @@
+#include "server/codec/hello.h"
+
+#include <cmath>
+#include <string>
+
+#include "idl/identity.h"
+#include "idl/limits.h"
+
+namespace collision::server {
+namespace {
+
+constexpr double kNanoseconds = 1e9;  // in a second
+
+std::string ClockDetail(bool lock_step) {
+  return lock_step ? "CLOCK_REAL_TIME; this world runs on simulated time: start the simulator in "
+                     "lock-step, or the service with clock kind WALL"
+                   : "CLOCK_LOCK_STEP; this world runs on the wall clock: start the simulator "
+                     "without lock-step, or the service with clock kind SIMULATED";
+}
+
+}  // namespace
+
+v1::ServiceHello HelloOf(const v1::Config& config) {
+  v1::ServiceHello hello;
+  hello.set_wire_revision(wire::kWireRevision);
+  hello.set_clock_kind(config.clock().kind() == v1::Clock::WALL ? v1::CLOCK_REAL_TIME
+                                                                : v1::CLOCK_LOCK_STEP);
+  hello.set_skew_max_ns(std::llround(config.clock().skew_max_s() * kNanoseconds));
+  hello.set_world(config.world().substr(0, wire::kNameMax));
+  hello.set_frame(config.frame());
+  hello.set_epoch_utc(config.epoch_utc());
+  hello.add_regions(hello.region());
+  return hello;
+}
+
+std::optional<Refusal> CheckHello(const v1::SimulatorHello& hello,
+                                  const v1::ServiceHello& service) {
+  Refusal refusal{.reason = v1::REJECTED_MISMATCH,
+                  .topic = v1::TOPIC_SIMULATOR_HELLO,
+                  .simulator_id = hello.simulator_id(),
+                  .incarnation = hello.incarnation()};
+  const auto refuse = [&refusal](const char* field, std::string detail) {
+    refusal.field = field;
+    refusal.detail = std::move(detail);
+    return refusal;
+  };
+  if (hello.wire_revision() != service.wire_revision()) {
+    return refuse("wire_revision", std::to_string(hello.wire_revision()) +
+                                       "; allowed: " + std::to_string(service.wire_revision()) +
+                                       ", that of the service: use one version for both");
+  }
+  if (hello.simulator_id() != SimulatorId(hello.simulator_name())) {
+    refusal.reason = v1::REJECTED_ID_MISMATCH;
+    return refuse("simulator_id", std::to_string(hello.simulator_id()) + "; its name has " +
+                                      std::to_string(SimulatorId(hello.simulator_name())));
+  }
+  if (hello.clock_kind() != service.clock_kind()) {
+    return refuse("clock_kind", ClockDetail(service.clock_kind() == v1::CLOCK_LOCK_STEP));
+  }
+  const bool both = !hello.frame().empty() && !service.frame().empty();
+  if (both && hello.frame() != service.frame()) {
+    return refuse("frame", "\"" + hello.frame() + "\"; allowed: \"" + service.frame() +
+                               "\", the frame of the world, or none");
+  }
+  return std::nullopt;
+}
+
+}  // namespace collision::server
