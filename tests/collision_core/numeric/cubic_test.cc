@@ -1,4 +1,4 @@
-#include "collision_core/numeric/quadratic.h"
+#include "collision_core/numeric/cubic.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 // Goal:   FirstZero is never past the zero and within 1e-14 of it, for all magnitudes and signs.
 // Method: the exact sign of the quadratic at the answer and just behind it.
-TEST(Quadratic, FirstZeroIsCertifiedAndTight) {
+TEST(Cubic, FirstZeroIsCertifiedAndTight) {
   Random random(11);
   for (int i = 0; i < 50000; ++i) {
     const double gap = random.LogUniform(1e-12, 1e12);
@@ -28,7 +28,7 @@ TEST(Quadratic, FirstZeroIsCertifiedAndTight) {
 }
 
 // Goal:   no gap: at once; nothing closes: never; extreme coefficients neither overflow nor vanish.
-TEST(Quadratic, FirstZeroAtTheExtremes) {
+TEST(Cubic, FirstZeroAtTheExtremes) {
   EXPECT_EQ(FirstZero(0, 1, 1), 0);
   EXPECT_EQ(FirstZero(-1, 0, 0), 0);
   EXPECT_EQ(FirstZero(1, 0, 0), kInfinity);
@@ -39,12 +39,12 @@ TEST(Quadratic, FirstZeroAtTheExtremes) {
 }
 
 // Goal:   a quadratic seen from elsewhere, forward or backward, has the same values.
-TEST(Quadratic, ShiftsContainTheExactValues) {
+TEST(Cubic, ShiftsContainTheExactValues) {
   Random random(12);
   for (int i = 0; i < 2000; ++i) {
     const double c0 = random.Uniform(-9, 9), c1 = random.Uniform(-9, 9), c2 = random.Uniform(-9, 9);
     const double start = random.Uniform(0, 9), x = random.Uniform(0, 9);
-    const Quadratic q{c0, c1, c2};
+    const Cubic q{c0, c1, c2};
     const ExactPolynomial p = {Exact(c0), Exact(c1), Exact(c2)};
     ASSERT_TRUE(Contains(q.From(start).At(x), Evaluate(p, Exact(start) + Exact(x))));
     ASSERT_TRUE(Contains(q.BackwardFrom(start).At(x), Evaluate(p, Exact(start) - Exact(x))));
