@@ -30,6 +30,13 @@ constexpr double kEstimateProgress = 0x1p-48;
 /// The estimate is made larger by this part, so that the quadratic, not X, decides as a rule.
 constexpr double kBeyondEstimate = 0x1p-44;
 
+/// Certified steps at most: one or two as a rule, a few more where the gap nearly closes before it
+/// opens again.
+constexpr int kCertifiedSteps = 48;
+
+/// A certified step of a smaller part of the way is the last one.
+constexpr double kCertifiedProgress = 0x1p-42;
+
 /// p(x) = jerk x³ + growth x² + closing x − gap in plain doubles: where it first reaches 0.
 struct Estimate {
   double gap, closing, growth, jerk;
@@ -114,12 +121,24 @@ double FirstZero(double gap, double closing, double growth, double jerk) {
   }
   const double estimate = Estimate{gap, closing, growth, jerk}.FirstZero();
   const double beyond = estimate * (1 + kBeyondEstimate);
-  // Where plain doubles overflow or underflow any end will do.
-  const double end = beyond > 0 && beyond < kInfinity ? beyond : 1;
-  const double steeper = (Interval(growth) + Interval(jerk) * end).upper;
-  const double zero = steeper >= 0 ? FirstZero(gap, closing, steeper)
-                                   : FirstZeroBeforeItRecovers(gap, closing, steeper);
-  return std::min(zero, end);
+  const Cubic rest{gap, -closing, -growth, -jerk};
+  double x = 0;
+  for (int step = 0; step < kCertifiedSteps; ++step) {
+    const Cubic seen = step == 0 ? rest : rest.From(x);
+    if (!(seen.c0.lower > 0)) return x;
+    // Where plain doubles overflow or underflow any end will do.
+    const double end = beyond > x && beyond < kInfinity ? beyond - x : std::max(x, 1.0);
+    const double steeper = (Interval(jerk) * end - seen.c2).upper;
+    const double slope = -seen.c1.lower;
+    const double zero = steeper >= 0
+                            ? FirstZero(seen.c0.lower, slope, steeper)
+                            : FirstZeroBeforeItRecovers(seen.c0.lower, slope, steeper);
+    const double next = AddDown(x, std::min(zero, end));
+    if (!(next < kInfinity && next - x > kCertifiedProgress * next)) return std::max(x, next);
+    if (zero >= end * (1 - kCertifiedProgress) && end == beyond - x) return next;
+    x = next;
+  }
+  return x;
 }
 
 }  // namespace collision::numeric

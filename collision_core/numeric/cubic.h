@@ -33,9 +33,9 @@ double FirstZero(double gap, double closing, double growth);
 /// it is nearly double; early, never late. Requires jerk >= 0.
 ///
 /// Method. For x <= X the gap is at least gap − closing x − (growth + jerk X) x², so the lesser of
-/// X and that quadratic's first zero is certified for any X > 0. The X that loses nothing is the
-/// zero itself: it is estimated in plain doubles, by Newton's method from a side on which it cannot
-/// pass the zero.
+/// X and that quadratic's first zero is certified for any X > 0. The X that loses least is the zero
+/// itself: it is estimated in plain doubles, by Newton's method from a side on which it cannot pass
+/// the zero. Where the quadratic closes before, the same is done again from there.
 double FirstZero(double gap, double closing, double growth, double jerk);
 
 }  // namespace collision::numeric
