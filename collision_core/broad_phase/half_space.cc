@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "collision_core/motion/speed_cap.h"
-#include "collision_core/numeric/quadratic.h"
+#include "collision_core/numeric/cubic.h"
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::broad_phase {
@@ -18,8 +18,8 @@ namespace {
 double FirstReach(const HalfSpace& half_space, const numeric::MovingBall& ball, double margin) {
   const numeric::IntervalVector n(half_space.normal);
   const numeric::Interval length = numeric::Norm(n);
-  const numeric::Quadratic reach =
-      length * (numeric::Quadratic{ball.radius + margin, 0, 0} + ball.u);
+  const numeric::Cubic reach =
+      length * (numeric::Cubic{ball.radius + margin, 0, 0} + ball.u);
   const numeric::Interval along = (Dot(n, ball.anchor) - half_space.offset) + Dot(n, ball.shift);
   const numeric::Interval closing = reach.c1 - Dot(n, ball.velocity);
   return numeric::FirstZero((along - reach.c0).lower, closing.upper, std::max(0.0, reach.c2.upper));

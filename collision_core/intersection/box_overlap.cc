@@ -9,12 +9,12 @@
 namespace collision::intersection {
 namespace {
 
-/// From p_WA along a normal to the face, less the radius: shift + velocity δ + u(δ), from `start`
-/// on.
+/// From p_WA along a normal to the face, less the radius: shift + velocity δ + bend δ² + u(δ), from
+/// `start` on.
 struct Reach {
   double start = 0;
-  numeric::Interval shift, velocity;
-  numeric::Quadratic u;
+  numeric::Interval shift, velocity, bend;
+  numeric::Cubic u;
 };
 
 /// A face over time: the horn's, then the cap's.
@@ -29,7 +29,7 @@ struct Agent {
   const motion::SpaceTimeBound& bound;
   Instant base;
   numeric::Interval since;
-  numeric::Quadratic errors, deviation;
+  numeric::Cubic errors, deviation;
   double direction_end;
 
   Agent(const motion::SpaceTimeBound& given, Instant seen_from)
@@ -41,21 +41,26 @@ struct Agent {
         direction_end(DirectionHoldsFor(given, seen_from)) {}
 
   /// The face with the normal `sign` times the axis; `fraction` of the deviation counts there.
-  Face FaceOf(int axis, int sign, numeric::Interval fraction) const {
+  Face FaceOf(motion::FaceNormal normal, numeric::Interval fraction) const {
     Face face;
-    const numeric::Interval velocity = sign * bound.state.v_WA[axis];
-    face.horn = {0, since * velocity, velocity, errors + fraction * deviation};
+    numeric::Interval velocity = normal.Along(bound.state.v_WA);
+    numeric::Interval bend = 0;
+    const double known = normal.Along(bound.state.a_WA);
+    if (known != 0) velocity = velocity + since * numeric::Interval(known), bend = 0.5 * known;
+    face.horn = {0, PathOfFace(bound.state, normal, since), velocity, bend,
+                 errors + fraction * deviation};
     face.cap.start = numeric::kInfinity;
     if (!HasSpeedCap(bound.limits)) return face;
-    const motion::CappedFace cap = CappedFaceOf(bound, axis, sign, fraction);
+    const motion::CappedFace cap = CappedFaceOf(bound, normal, fraction);
     if (cap.from.is_never()) return face;
-    face.cap = {numeric::SecondsBetween(base, cap.from).lower, cap.shift, 0, cap.UFrom(base)};
+    face.cap = {numeric::SecondsBetween(base, cap.from).lower, cap.shift, 0, 0, cap.UFrom(base)};
     return face;
   }
 };
 
-/// One of the six conditions: the face of one agent has reached that of the other. It is a convex
-/// function of time, in pieces, that must be >= 0; so it fails on one interval of time at most.
+/// One of the six conditions: the face of one agent has reached that of the other. Without known
+/// accelerations it is a convex function of time, in pieces, that must be >= 0; so it fails on one
+/// interval of time at most.
 class Condition {
  public:
   /// `along` leads from the agent of `face` to that of `other`, whose normal is the opposite.
@@ -66,8 +71,8 @@ class Condition {
       if (start == numeric::kInfinity || (pieces_ > 0 && start == start_[pieces_ - 1])) continue;
       const Reach &reach = face.at(start), &opposite = other.at(start);
       // Differences first, so that what both have in common cancels.
-      const numeric::Quadratic lines{radii + ((reach.shift + opposite.shift) - along),
-                                     reach.velocity + opposite.velocity, 0};
+      const numeric::Cubic lines{radii + ((reach.shift + opposite.shift) - along),
+                                 reach.velocity + opposite.velocity, reach.bend + opposite.bend};
       start_[pieces_] = start;
       value_[pieces_++] = lines + (reach.u + opposite.u);
     }
@@ -78,12 +83,7 @@ class Condition {
     for (int i = 0; i < pieces_; ++i) {
       const double end = i + 1 < pieces_ ? start_[i + 1] : numeric::kInfinity;
       if (end <= time) continue;
-      const numeric::Quadratic seen = value_[i].From(time);
-      if (seen.c0.upper >= 0) return time;
-      const double step =
-          numeric::FirstZero(-seen.c0.upper, seen.c1.upper, std::max(0.0, seen.c2.upper));
-      const double zero =
-          step == numeric::kInfinity ? numeric::kInfinity : numeric::AddDown(time, step);
+      const double zero = FirstOfPiece(value_[i], time);
       if (zero < end || end == numeric::kInfinity) return zero;
       time = end;
     }
@@ -91,16 +91,29 @@ class Condition {
   }
 
  private:
+  /// From `time` on, of one piece.
+  static double FirstOfPiece(const numeric::Cubic& value, double time) {
+    const numeric::Cubic seen = value.From(time);
+    if (seen.c0.upper >= 0) return time;
+    const double step = numeric::FirstZero(-seen.c0.upper, seen.c1.upper, seen.c2.upper,
+                                           std::max(0.0, seen.c3.upper));
+    return step == numeric::kInfinity ? numeric::kInfinity : numeric::AddDown(time, step);
+  }
+
   int pieces_ = 0;
   double start_[3];
-  numeric::Quadratic value_[3];
+  numeric::Cubic value_[3];
 };
 
-/// The first time from `start` on at which all six may hold, rounded down; may be +infinity. A
-/// condition that has recovered never fails again, so six rounds find the end of the last failure.
+/// Rounds at most. A condition that is convex and has recovered never fails again, so six rounds find
+/// the end of the last failure. With known accelerations one may fail again; then the time found so
+/// far is returned at the bound: early, never late.
+constexpr int kRoundsMax = 64;
+
+/// The first time from `start` on at which all six may hold, rounded down; may be +infinity.
 double FirstOfAll(const std::array<Condition, 6>& conditions, double start) {
   double time = start;
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round < kRoundsMax; ++round) {
     // All from the same time: the order of the six must not matter, it turns with A and B.
     double next = time;
     for (const Condition& condition : conditions) {
@@ -123,15 +136,15 @@ std::array<Condition, 6> Conditions(const Agent& a, const motion::DirectionalRea
     const numeric::Interval along =
         numeric::Interval(sign * b.bound.state.p_WA[axis]) - sign * a.bound.state.p_WA[axis];
     return Condition(along, radii,
-                     a.FaceOf(axis, sign, (sign > 0 ? reach_A.upward : reach_A.downward)[axis]),
-                     b.FaceOf(axis, -sign, (sign > 0 ? reach_B.downward : reach_B.upward)[axis]));
+                     a.FaceOf({axis, sign}, (sign > 0 ? reach_A.upward : reach_A.downward)[axis]),
+                     b.FaceOf({axis, -sign}, (sign > 0 ? reach_B.downward : reach_B.upward)[axis]));
   };
   return {condition(0, 1),  condition(1, 1),  condition(2, 1),
           condition(0, -1), condition(1, -1), condition(2, -1)};
 }
 
 bool BoxMatters(const motion::SpaceTimeBound& bound, Instant base) {
-  if (bound.limits.acceleration_max > 0 && DirectionHoldsFor(bound, base) > 0) return true;
+  if (CanDeviate(bound.limits) && DirectionHoldsFor(bound, base) > 0) return true;
   return HasSpeedCap(bound.limits);
 }
 

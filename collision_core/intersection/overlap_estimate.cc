@@ -24,6 +24,7 @@ struct Estimate {
   const motion::SpaceTimeBound& bound;
   double tau;
   double skew_reach = 0;  // |v| κ.
+  double known = 0;       // |a|.
   double centre[3];       // Of the horn's ball.
   double radius;
   double capped_centre[3];
@@ -37,41 +38,56 @@ struct Estimate {
     double speed = 0;
     if (capped || bound.skew > 0) speed = state.v_WA.norm();
     skew_reach = speed * bound.skew;
+    if (HasKnownAcceleration(state)) known = state.a_WA.norm();
     radius = bound.limits.radius + U(tau, 1);
-    const double takeover = capped ? TakesOver(speed, 1) : numeric::kInfinity;
+    const double takeover = capped ? TakesOver(speed, known, 1) : numeric::kInfinity;
     capped_radius = tau <= takeover
                         ? radius
                         : bound.limits.radius + U(takeover, 1) + CappedSpeed() * (tau - takeover);
     const bool directed = !state.direction.isZero(0) && DirectionHoldsFor(bound, base) > time;
     for (int i = 0; i < 3; ++i) {
-      centre[i] = state.v_WA[i] * tau;
-      capped_centre[i] = state.v_WA[i] * std::min(tau, takeover);
-      up[i] = Face(state.v_WA[i], directed ? Fraction(i, 1) : 1);
-      down[i] = Face(-state.v_WA[i], directed ? Fraction(i, -1) : 1);
+      centre[i] = Path(state.v_WA[i], state.a_WA[i], tau);
+      capped_centre[i] = Path(state.v_WA[i], state.a_WA[i], std::min(tau, takeover));
+      up[i] = Face(state.v_WA[i], state.a_WA[i], directed ? Fraction(i, 1) : 1);
+      down[i] = Face(-state.v_WA[i], -state.a_WA[i], directed ? Fraction(i, -1) : 1);
     }
+  }
+
+  static double Path(double along, double bending, double at) {
+    return along * at + 0.5 * bending * at * at;
   }
 
   double CappedSpeed() const {
     const motion::MotionLimits& d = bound.limits;
-    return d.speed_max + 0.5 * d.acceleration_max * d.time_step;
+    if (d.jerk_max > 0) return (d.time_step > 0 ? 2 : 1) * d.speed_max;
+    return d.speed_max + 0.5 * (d.acceleration_max + known) * d.time_step;
   }
 
   /// u at τ, with a fraction of the deviation.
   double U(double at, double fraction) const {
     const motion::MotionLimits& d = bound.limits;
     const double sigma = at + bound.skew;
-    return bound.state.position_error + skew_reach + bound.state.velocity_error * sigma +
-           fraction * (0.5 * d.acceleration_max * sigma * (sigma + d.time_step));
+    const double h = d.time_step;
+    const double jerked = d.jerk_max / 6 * sigma * (sigma * sigma + 3 * h * (sigma + h));
+    return bound.state.position_error + skew_reach +
+           (bound.state.velocity_error + known * (bound.skew + 0.5 * h)) * sigma +
+           fraction * (0.5 * d.acceleration_max * sigma * (sigma + h) + jerked);
   }
 
-  /// The time since the stamp when the cap takes over from the slope `along`.
-  double TakesOver(double along, double fraction) const {
+  /// The time since the stamp when the cap takes over from a slope that is `along` at the stamp and
+  /// grows at the rate `bending` by itself.
+  double TakesOver(double along, double bending, double fraction) const {
     const motion::MotionLimits& d = bound.limits;
-    const double rate = fraction * d.acceleration_max;
+    const double jerk = fraction * d.jerk_max, earlier = 2 * bound.skew + d.time_step;
+    const double rate = fraction * d.acceleration_max + bending + jerk * earlier;
     const double room = d.speed_max - along - bound.state.velocity_error +
-                        0.5 * d.time_step * (d.acceleration_max - rate);
-    if (rate * (tau + bound.skew) <= room) return numeric::kInfinity;
-    return std::max(0.0, room / rate - bound.skew);
+                        0.5 * d.time_step * (d.acceleration_max - fraction * d.acceleration_max) -
+                        0.5 * jerk * Square(earlier);
+    const double sigma = tau + bound.skew;
+    if ((rate + 0.5 * jerk * sigma) * sigma <= room) return numeric::kInfinity;
+    const double closing = std::max(0.0, room);
+    return std::max(
+        0.0, 2 * closing / (rate + std::sqrt(Square(rate) + 2 * jerk * closing)) - bound.skew);
   }
 
   double Fraction(int axis, int sign) const {
@@ -80,12 +96,14 @@ struct Estimate {
     return std::sqrt(1 - Square(d[axis]) / d.squaredNorm());
   }
 
-  double Face(double along, double fraction) const {
-    double reach = along * tau + U(tau, fraction);
+  double Face(double along, double bending, double fraction) const {
+    double reach = Path(along, bending, tau) + U(tau, fraction);
     if (bound.limits.speed_max < numeric::kInfinity) {
-      const double takeover = TakesOver(along, fraction);
+      const double takeover =
+          TakesOver(along + known * bound.skew, std::max(0.0, bending), fraction);
       if (tau > takeover) {
-        reach = along * takeover + U(takeover, fraction) + CappedSpeed() * (tau - takeover);
+        reach = Path(along, bending, takeover) + U(takeover, fraction) +
+                CappedSpeed() * (tau - takeover);
       }
     }
     return bound.limits.radius + reach;

@@ -9,7 +9,8 @@ namespace collision::intersection {
 /// The relative motion of two forward horns as an exact problem in doubles, with the sum of the
 /// radii larger by the pair's margin. What rounding may have cost is added to the reach: 6 · 2^-53
 /// of the magnitudes of the centre's terms, 2 · 2^-53 of the velocity's, and 20 · 2^-53 of each
-/// coefficient of the reach itself. Symmetric: (A, B) and (B, A) give the same bits, or the negated
+/// coefficient of the reach itself; 12, 8 and 28 where an acceleration is known or a jerk declared.
+/// Symmetric: (A, B) and (B, A) give the same bits, or the negated
 /// ones. If a difference of times overflows, all reaches are infinite and so decide nothing.
 numeric::QuickApproach QuickHornPair(const BoundPair& pair);
 

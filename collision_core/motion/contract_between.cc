@@ -98,6 +98,40 @@ double FarthestOf(const Span& span) {
   return best;
 }
 
+/// Instants tried between two states where the centres bend, and how often the best one's
+/// neighbourhood is halved.
+constexpr int kInstantsTried = 32;
+constexpr int kHalvings = 20;
+
+/// As FarthestOf(), of any two balls: the best of a few instants, then nearer ones.
+double FarthestOfBent(const numeric::MovingBall& forward, const numeric::MovingBall& backward,
+                      double duration) {
+  const Vector3d d = (forward.centre() - backward.centre()).middle();
+  const Vector3d w = (forward.velocity - backward.velocity).middle();
+  const Vector3d h = (forward.bend - backward.bend).middle();
+  const numeric::Cubic radii = forward.u + backward.u;
+  const double r0 = radii.c0.middle(), r1 = radii.c1.middle(), r2 = radii.c2.middle(),
+               r3 = radii.c3.middle();
+  const auto gap_at = [&](double share) {
+    const double s = share * duration;
+    return (d + s * (w + s * h)).norm() - (r0 + s * (r1 + s * (r2 + s * r3)));
+  };
+  double best = 0, greatest = gap_at(0);
+  const auto try_at = [&](double share) {
+    if (share < 0 || share > 1) return;
+    const double gap = gap_at(share);
+    if (gap > greatest) best = share, greatest = gap;
+  };
+  for (int i = 1; i <= kInstantsTried; ++i) try_at(static_cast<double>(i) / kInstantsTried);
+  double apart = 0.5 / kInstantsTried;
+  for (int i = 0; i < kHalvings; ++i, apart *= 0.5) {
+    const double middle = best;
+    try_at(middle - apart);
+    try_at(middle + apart);
+  }
+  return greatest > 0 ? best : -1;
+}
+
 }  // namespace
 
 // Neither skew nor what came before the one state and comes after the other can make it wrong: let
@@ -108,17 +142,25 @@ double GapBetween(const SpaceTimeBound& before, const MotionState& next) {
   CORE_CHECK(next.stamp >= base, "a state follows the one before", next.stamp.nanoseconds(),
              base.nanoseconds());
   const numeric::Interval duration = numeric::SecondsBetween(base, next.stamp);
-  const Span span = SpanOf(before, next, duration.middle());
-  if (NeverComeApart(span)) return 0;
-  const double share = FarthestOf(span.Scaled(Enlarging(span)));
-  if (share < 0) return 0;
-
-  const double s = std::min(share * duration.lower, duration.lower);
+  const SpaceTimeBound after{next, before.limits, before.skew};
+  const bool bends = Bends(before) || Bends(after);
+  double share;
+  if (!bends) {
+    const Span span = SpanOf(before, next, duration.middle());
+    if (NeverComeApart(span)) return 0;
+    share = FarthestOf(span.Scaled(Enlarging(span)));
+    if (share < 0) return 0;
+  }
   const numeric::MovingBall forward = ForwardBall(before, base);
-  const numeric::MovingBall backward = BackwardBall({next, before.limits, before.skew}, base);
-  const numeric::IntervalVector offset =
-      (forward.centre() - backward.centre()) +
-      numeric::Interval(s) * (forward.velocity - backward.velocity);
+  const numeric::MovingBall backward = BackwardBall(after, base);
+  if (bends) {
+    share = FarthestOfBent(forward, backward, duration.middle());
+    if (share < 0) return 0;
+  }
+  const double s = std::min(share * duration.lower, duration.lower);
+  numeric::IntervalVector offset = (forward.centre() - backward.centre()) +
+                                   numeric::Interval(s) * (forward.velocity - backward.velocity);
+  if (bends) offset = offset + Square(numeric::Interval(s)) * (forward.bend - backward.bend);
   return std::max(0.0, (numeric::Norm(offset) - (forward.u + backward.u).At(s)).lower);
 }
 

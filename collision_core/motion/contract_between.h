@@ -12,17 +12,19 @@ namespace collision::motion {
 /// above 0, beyond the sender's rounding, is a breach. With T = next.stamp − before.state.stamp, it
 /// bounds
 ///
-///   max over s in [0, T] of |D(s)| − R(s),   D(s) = p + v s − p' + v' (T − s),
-///   R(s) = u(s) + u'(T − s), without errors ½ M s² + ½ M (T − s)².
+///   max over s in [0, T] of |Δ(s)| − R(s),   R(s) = u(s) + u'(T − s),
+///   Δ(s) = p + v s + ½ a s² − p' + v' (T − s) − ½ a' (T − s)².
 ///
-/// Derivation. D(s) is the offset of the forward ball's centre from the backward ball's. For a true
-/// motion −D(s) = ∫ (s − t) a dt, so |D(s)| <= M ∫ |s − t| dt = ½ M s² + ½ M (T − s)², the sum of
-/// both radii; with errors, skew and step both horns hold as they are. s = T is the check of the
-/// position, s = 0 the same backward in time, and s → ∞ that of the velocity. Together these are
-/// the bounds of λ · ∫ (s − t) a dt for every vector λ: along one line a motion exists if and only
-/// if the result is 0 and |v' − v| <= M T; across it, where thrust may turn, the check leaves a
-/// little more than can be reached. Only 0 <= s <= T is searched: with the velocity's bound the
-/// rest follows.
+/// Without errors and jerk R is ½ D s² + ½ D (T − s)².
+///
+/// Derivation. Δ(s) is the offset of the forward ball's centre from the backward ball's. For a true
+/// motion without a known part −Δ(s) = ∫ (s − t) x″ dt, so |Δ(s)| <= D ∫ |s − t| dt = ½ D s² + ½ D
+/// (T − s)², the sum of both radii; with errors, skew, step, known accelerations and jerk both horns
+/// hold as they are. s = T is the check of the position, s = 0 the same backward in time, and s → ∞
+/// that of the velocity. Together these are the bounds of λ · ∫ (s − t) x″ dt for every vector λ:
+/// along one line a motion exists if and only if the result is 0 and |v' − v| <= D T; across it,
+/// where thrust may turn, the check leaves a little more than can be reached. Only 0 <= s <= T is
+/// searched: with the velocity's bound the rest follows.
 ///
 /// Which s is tested comes from plain doubles; that the balls are apart there is proved in
 /// intervals, beyond the rounding allowance of p' and, for T, of v' (contract.h).

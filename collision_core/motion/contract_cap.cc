@@ -28,10 +28,10 @@ class Comparison {
     const bool use_direction = DirectionHoldsFor(before_, after_.state.stamp) >= 0;
     const DirectionalReach all, directed = ReachOfDirection(before_.state);
     for (int axis = 0; axis < 3; ++axis) {
-      CompareFaces(axis, 1, all.upward[axis]);
-      CompareFaces(axis, -1, all.downward[axis]);
-      if (use_direction) CompareFaces(axis, 1, directed.upward[axis]);
-      if (use_direction) CompareFaces(axis, -1, directed.downward[axis]);
+      CompareFaces({axis, 1}, all.upward[axis]);
+      CompareFaces({axis, -1}, all.downward[axis]);
+      if (use_direction) CompareFaces({axis, 1}, directed.upward[axis]);
+      if (use_direction) CompareFaces({axis, -1}, directed.downward[axis]);
     }
     return check_;
   }
@@ -42,7 +42,7 @@ class Comparison {
     const CappedBall cap = CappedBallOf(before_);
     const double early = TakenOverEarly(cap.from, CapStartOf(after_));
     const double speed = numeric::Norm(numeric::IntervalVector(before_.state.v_WA)).upper;
-    Drift(EarlyGrowth(numeric::Interval(2) * speed, early));
+    if (early > 0) Drift(EarlyGrowth(numeric::Interval(2) * speed, early, cap.from));
     if (cap.from >= after_.state.stamp) return;
     const numeric::Interval away = numeric::Norm(step_ - cap.shift);
     Drift(away + (new_errors_ + new_deviation_) - cap.UFrom(after_.state.stamp).c0);
@@ -50,14 +50,13 @@ class Comparison {
   }
 
   /// Likewise one face.
-  void CompareFaces(int axis, int sign, numeric::Interval fraction) {
-    const CappedFace cap = CappedFaceOf(before_, axis, sign, fraction);
-    const double along = sign * after_.state.v_WA[axis];
-    const double early = TakenOverEarly(cap.from, FaceCapStartOf(after_, along, fraction.upper));
-    Drift(EarlyGrowth(0, early));
+  void CompareFaces(FaceNormal face, numeric::Interval fraction) {
+    const CappedFace cap = CappedFaceOf(before_, face, fraction);
+    const double early = TakenOverEarly(cap.from, FaceCapStartOf(after_, face, fraction.upper));
+    if (early > 0) Drift(EarlyGrowth(0, early, cap.from));
     if (cap.from >= after_.state.stamp) return;
-    const numeric::Interval step = axis == 0 ? step_.x : axis == 1 ? step_.y : step_.z;
-    const numeric::Interval away = numeric::Interval(sign) * step - cap.shift;
+    const numeric::Interval step = face.axis == 0 ? step_.x : face.axis == 1 ? step_.y : step_.z;
+    const numeric::Interval away = numeric::Interval(face.sign) * step - cap.shift;
     const numeric::Interval u = new_errors_ + fraction * new_deviation_;
     Drift(away + u - cap.UFrom(after_.state.stamp).c0);
     if (fraction.lower == 1) Exceed(away, cap.from, cap.speed);
@@ -71,13 +70,21 @@ class Comparison {
   }
 
   /// What that adds: the velocities of the new ball fill the cap's, those of the old one fall short
-  /// of it by 2 |v| + M t in the direction −v, t before it turns; of a face by M t.
-  numeric::Interval EarlyGrowth(numeric::Interval shortfall, double early) const {
-    if (early == 0) return 0;
+  /// of it by 2 |v| + M t in the direction −v, t before it turns `at`; of a face by M t. With a known
+  /// acceleration or jerk: by V' and the speed of the horn's centre at most.
+  numeric::Interval EarlyGrowth(numeric::Interval shortfall, double early, Instant at) const {
     if (early == numeric::kInfinity) return {0, numeric::kInfinity};
-    return numeric::Interval(early) *
-           (shortfall +
-            numeric::Interval(before_.limits.acceleration_max) * numeric::Interval(early));
+    const numeric::Interval all = early;
+    if (Bends(before_)) return all * (CappedSpeed(after_) + SpeedAt(at));
+    return all * (shortfall + numeric::Interval(before_.limits.acceleration_max) * all);
+  }
+
+  /// The speed of the horn's centre up to `at`, at most.
+  numeric::Interval SpeedAt(Instant at) const {
+    const MotionState& state = before_.state;
+    return numeric::Norm(numeric::IntervalVector(state.v_WA)) +
+           numeric::Norm(numeric::IntervalVector(state.a_WA)) *
+               numeric::SecondsBetween(state.stamp, at);
   }
 
   void Drift(numeric::Interval outside) {

@@ -29,12 +29,13 @@ FaceBox BoxAt(const SpaceTimeBound& bound, Instant t, DirectionUse direction) {
   const numeric::Interval radius = bound.limits.radius;
   FaceBox box;
   for (int axis = 0; axis < 3; ++axis) {
-    const numeric::Interval shift = since * numeric::Interval(bound.state.v_WA[axis]);
+    const FaceNormal lower{axis, -1}, upper{axis, 1};
+    const numeric::Interval shift = PathOfFace(bound.state, upper, since);
     numeric::Interval down = errors + reach.downward[axis] * deviation - shift;
     numeric::Interval up = errors + reach.upward[axis] * deviation + shift;
     if (capped) {
-      down = ReachAt(CappedFaceOf(bound, axis, -1, reach.downward[axis]), t, down);
-      up = ReachAt(CappedFaceOf(bound, axis, 1, reach.upward[axis]), t, up);
+      down = ReachAt(CappedFaceOf(bound, lower, reach.downward[axis]), t, down);
+      up = ReachAt(CappedFaceOf(bound, upper, reach.upward[axis]), t, up);
     }
     box.lower[axis] = numeric::Interval(bound.state.p_WA[axis]) - (radius + down);
     box.upper[axis] = numeric::Interval(bound.state.p_WA[axis]) + (radius + up);

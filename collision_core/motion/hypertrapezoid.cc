@@ -1,5 +1,7 @@
 #include "collision_core/motion/hypertrapezoid.h"
 
+#include <cmath>
+
 #include "collision_core/base/check.h"
 #include "collision_core/motion/horn_box.h"
 #include "collision_core/numeric/seconds.h"
@@ -34,12 +36,25 @@ Hypertrapezoid MakeHypertrapezoid(const SpaceTimeBound& bound, Instant start, In
   const FaceBox last = BoxAt(bound, end, direction);
   Hypertrapezoid h;
   h.start = start;
-  h.duration = numeric::SecondsBetween(start, end).lower;
+  const numeric::Interval duration = numeric::SecondsBetween(start, end);
+  h.duration = duration.lower;
   for (int axis = 0; axis < 3; ++axis) {
     h.lower_start[axis] = first.lower[axis].lower;
     h.lower_end[axis] = last.lower[axis].lower;
     h.upper_start[axis] = first.upper[axis].upper;
     h.upper_end[axis] = last.upper[axis].upper;
+    const double known = bound.state.a_WA[axis];
+    if (known != 0) {
+      const double bulge =
+          (numeric::Interval(0.125) * std::abs(known) * Square(duration)).upper;
+      double(&start_of)[3] = known > 0 ? h.lower_start : h.upper_start;
+      double(&end_of)[3] = known > 0 ? h.lower_end : h.upper_end;
+      const auto outward = [&](double face) {
+        return known > 0 ? numeric::AddDown(face, -bulge) : numeric::AddUp(face, bulge);
+      };
+      start_of[axis] = outward(start_of[axis]);
+      end_of[axis] = outward(end_of[axis]);
+    }
   }
   return h;
 }

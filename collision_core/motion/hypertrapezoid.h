@@ -6,9 +6,11 @@
 namespace collision::motion {
 
 /// The box of a horn over the window [start, start + duration], with flat faces: each of the six
-/// faces of the box is replaced by the chord between its values at the two ends. The faces of the
-/// horn's box are convex in time, so a chord never cuts inside. Values are rounded outward; a face
-/// at time t is the mean of its two ends, weighted by the exact fraction of the window. World frame
+/// faces of the box is replaced by the chord between its values at the two ends. Where no
+/// acceleration is known, the faces of the horn's box are convex in time, so a chord never cuts
+/// inside. A known acceleration that pulls a face inward bends it at most at that rate a: over a
+/// window of T the face bulges out of its chord by at most ⅛ a T², by which both ends are moved
+/// outward. Values are rounded outward; a face at time t is the mean of its two ends, weighted by the exact fraction of the window. World frame
 /// W, metres. Source: Hubbard 1995 (space_time_bound.h), section 3.
 struct Hypertrapezoid {
   Instant start;

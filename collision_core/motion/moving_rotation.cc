@@ -10,7 +10,7 @@ namespace {
 constexpr double kHalfTurn = 0x1.921fb54442d19p+1;
 
 // θ with σ = start + slope δ.
-numeric::Quadratic OffAngle(const SpaceTimeBound& bound, numeric::Interval start, double slope) {
+numeric::Cubic OffAngle(const SpaceTimeBound& bound, numeric::Interval start, double slope) {
   const double alpha = bound.limits.angular_acceleration_max;
   if (alpha < 0) return {kHalfTurn, 0, 0};
   const numeric::Interval half = numeric::Interval(0.5) * alpha;

@@ -33,7 +33,7 @@ struct MovingRotation {
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
   Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();
   numeric::Interval since;         ///< Seconds from the stamp to the base instant.
-  numeric::Quadratic angle_error;  ///< θ(δ).
+  numeric::Cubic angle_error;  ///< θ(δ).
 
   numeric::IntervalQuaternion OrientationAt(double delta) const {
     return Turned(q_WB, w_WB, since + numeric::Interval(delta));

@@ -24,29 +24,47 @@ Elapsed BackwardFrom(const SpaceTimeBound& bound, Instant base) {
   return {numeric::SecondsBetween(base, bound.state.stamp) + bound.skew, -1};
 }
 
-/// ½ M σ (σ + h) as a quadratic in δ.
-numeric::Quadratic Deviation(const MotionLimits& limits, Elapsed elapsed) {
+/// ½ D σ (σ + h) + ⅙ J ((σ + h)³ − h³) as a cubic in δ.
+numeric::Cubic Deviation(const MotionLimits& limits, Elapsed elapsed) {
   const numeric::Interval half_max = numeric::Interval(0.5) * limits.acceleration_max;
-  const numeric::Interval step = limits.time_step;
-  return {half_max * elapsed.start * (elapsed.start + step),
-          half_max * elapsed.slope * (numeric::Interval(2) * elapsed.start + step), half_max};
+  const numeric::Interval step = limits.time_step, start = elapsed.start, slope = elapsed.slope;
+  numeric::Cubic deviation{half_max * start * (start + step),
+                           half_max * slope * (numeric::Interval(2) * start + step), half_max};
+  if (limits.jerk_max == 0) return deviation;
+  const numeric::Interval half_jerk = numeric::Interval(0.5) * limits.jerk_max;
+  const numeric::Interval sixth_jerk = numeric::Interval(limits.jerk_max) / 6;
+  const numeric::Interval whole = start + step, thrice_step = numeric::Interval(3) * step;
+  return deviation +
+         numeric::Cubic{sixth_jerk * start * (Square(start) + thrice_step * whole),
+                        half_jerk * slope * Square(whole), half_jerk * whole, sixth_jerk * slope};
 }
 
-/// ε_p + |v| κ + ε_v σ as a quadratic in δ.
-numeric::Quadratic Errors(const SpaceTimeBound& bound, Elapsed elapsed) {
+/// ε_p + |v| κ + ε_v σ + |a| (κ + ½ h) σ as a cubic in δ.
+numeric::Cubic Errors(const SpaceTimeBound& bound, Elapsed elapsed) {
   const MotionState& state = bound.state;
   const numeric::Interval speed =
       bound.skew > 0 ? numeric::Norm(numeric::IntervalVector(state.v_WA)) : numeric::Interval(0);
-  return {state.position_error + speed * bound.skew +
-              numeric::Interval(state.velocity_error) * elapsed.start,
-          numeric::Interval(state.velocity_error) * elapsed.slope, 0};
+  numeric::Interval rate = state.velocity_error;
+  if (HasKnownAcceleration(state)) {
+    rate = rate + numeric::Norm(numeric::IntervalVector(state.a_WA)) *
+                      (bound.skew + numeric::Interval(0.5) * bound.limits.time_step);
+  }
+  return {state.position_error + speed * bound.skew + rate * elapsed.start, rate * elapsed.slope, 0};
 }
 
 numeric::MovingBall Ball(const SpaceTimeBound& bound, Elapsed elapsed,
                          numeric::Interval since_stamp) {
   const numeric::IntervalVector velocity(bound.state.v_WA);
-  return {numeric::IntervalVector(bound.state.p_WA), since_stamp * velocity, velocity,
-          bound.limits.radius, Errors(bound, elapsed) + Deviation(bound.limits, elapsed)};
+  numeric::MovingBall ball{numeric::IntervalVector(bound.state.p_WA), since_stamp * velocity,
+                           velocity, bound.limits.radius,
+                           Errors(bound, elapsed) + Deviation(bound.limits, elapsed)};
+  ball.bends = HasKnownAcceleration(bound.state);
+  if (!ball.bends) return ball;
+  const numeric::IntervalVector acceleration(bound.state.a_WA);
+  ball.bend = numeric::Interval(0.5) * acceleration;
+  ball.shift = ball.shift + Square(since_stamp) * ball.bend;
+  ball.velocity = velocity + since_stamp * acceleration;
+  return ball;
 }
 
 bool HasDirection(const MotionState& state) { return !state.direction.isZero(0); }
@@ -61,11 +79,11 @@ numeric::MovingBall BackwardBall(const SpaceTimeBound& bound, Instant base) {
   return Ball(bound, BackwardFrom(bound, base), numeric::SecondsBetween(bound.state.stamp, base));
 }
 
-numeric::Quadratic ForwardDeviation(const SpaceTimeBound& bound, Instant base) {
+numeric::Cubic ForwardDeviation(const SpaceTimeBound& bound, Instant base) {
   return Deviation(bound.limits, ForwardFrom(bound, base));
 }
 
-numeric::Quadratic ForwardErrors(const SpaceTimeBound& bound, Instant base) {
+numeric::Cubic ForwardErrors(const SpaceTimeBound& bound, Instant base) {
   return Errors(bound, ForwardFrom(bound, base));
 }
 

@@ -1,14 +1,16 @@
 // The certified root finder: when a moving point first comes as near as a growing distance.
 //
-// At δ, with n along d = d0 + w δ, the distance has the tangent |d(δ + x)| >= n·(d + w x) / |n| for
-// all x, whatever n is. Less the reach this is a quadratic in x, bounded below by intervals; until
-// its first zero, rounded down, nothing can meet. That is Newton's step on a lower bound: never
-// past the root, quadratic near a simple root, halving near a double one.
+// At δ, with n along d = d0 + w δ + h δ² (h is half the difference of the known accelerations), the
+// distance has the tangent |d(δ + x)| >= n·(d + (w + 2 h δ) x + h x²) / |n| for all x, whatever n
+// is. Less the reach this is a cubic in x, bounded below by intervals; until its first zero, rounded
+// down, nothing can meet. That is Newton's step on a lower bound: never past the root, quadratic
+// near a simple root, halving near a double one. Without known accelerations and jerk it is a
+// quadratic, bit for bit.
 //
 // Near a triple root (distance and reach agree in value, slope and curvature) the tangent step
 // makes little progress. After eight steps the bound therefore adds the curvature of the distance.
-// Let y be the component of d + w x along n and z the one perpendicular to n; then on [0, x_max]
-// the distance is at least y + |z|² / (2 max |d + w x|). No tested distribution needs more than 120
+// Let y be the component of the centre along n and z the one perpendicular to n; then on [0, x_max]
+// the distance is at least y + |z|² / (2 · the greatest distance there). No tested distribution needs more than 120
 // of the 400 steps allowed; after 400 steps the time certified so far is returned: early, never
 // late.
 //

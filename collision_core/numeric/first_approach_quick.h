@@ -6,11 +6,13 @@
 namespace collision::numeric {
 
 /// The ball of a relative motion, rounded outward: its reach includes an allowance of doubt0 +
-/// doubt1 δ [m] for the rounding of its numbers. The true ball lies inside it, and contains the
-/// ball with a reach smaller by twice the allowance.
+/// doubt1 δ + doubt2 δ² [m] for the rounding of its numbers. The true ball lies inside it, and
+/// contains the ball with a reach smaller by twice the allowance.
 struct QuickApproach {
   QuickBall ball;
   double doubt0, doubt1;
+  double doubt2 = 0;   ///< Above 0 only where accelerations are known or jerk is declared.
+  bool bends = false;  ///< Whether ball.bend and ball.s3 may be other than zero.
 };
 
 /// The result of the quick root finder.
@@ -21,7 +23,8 @@ struct QuickAnswer {
   double delta;
 };
 
-/// The least δ in [0, limit] at which the ball contains the origin: |c + v δ| <= s0 + s1 δ + s2 δ².
+/// The least δ in [0, limit] at which the ball contains the origin: |c + v δ + bend δ²| <= s0 +
+/// s1 δ + s2 δ² + s3 δ³.
 /// Undecided where a few units in the last place decide (grazing, touching), near triple roots, and
 /// beyond the magnitudes for which its errors are proven (1e-140 to 1e140 m): FirstApproach() then
 /// goes on from the time certified so far.

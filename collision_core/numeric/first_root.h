@@ -23,7 +23,7 @@ inline constexpr double kRootMin = 0x1p-1000;
 
 /// A lower bound on the least x >= 0 with gap − closing x − growth x² <= 0; +infinity if there is
 /// none, or none that is a double; 0 if something overflows. Plain doubles, and early by 2^-40 of
-/// itself at usual magnitudes: FirstZero() (quadratic.h) is the tight one. Unchecked: growth >= 0.
+/// itself at usual magnitudes: FirstZero() (cubic.h) is the tight one. Unchecked: growth >= 0.
 inline double FirstRoot(double gap, double closing, double growth) {
   if (!(gap > 0)) return 0;
   if (closing <= 0 && growth == 0) return kInfinity;

@@ -1,4 +1,4 @@
-// A ball that moves along a line and grows: in intervals, and in plain doubles.
+// A ball that moves along a line or a parabola and grows: in intervals, and in plain doubles.
 //
 // The space-time bound of an agent is such a ball, and so is the relative motion of two of them: A
 // and B can touch when the ball about c_B − c_A, with the velocity v_B − v_A and the radius ρ_A +
@@ -31,13 +31,13 @@
 #pragma once
 
 #include "collision_core/numeric/interval.h"
-#include "collision_core/numeric/quadratic.h"
+#include "collision_core/numeric/cubic.h"
 
 namespace collision::numeric {
 
 /// A ball as functions of the seconds δ >= 0 after a base instant:
 ///
-///   centre(δ) = anchor + shift + velocity δ [m],   radius(δ) = radius + u(δ) [m].
+///   centre(δ) = anchor + shift + velocity δ + bend δ² [m],   radius(δ) = radius + u(δ) [m].
 ///
 /// Each interval contains the exact coefficient. Anchor and shift are kept apart so that the
 /// difference of two balls subtracts anchors first: a scene far from the origin loses only what its
@@ -47,29 +47,45 @@ struct MovingBall {
   IntervalVector shift;     ///< From there to the centre at δ = 0.
   IntervalVector velocity;  ///< [m/s]
   Interval radius;          ///< The constant part of the radius.
-  Quadratic u;              ///< The growing part; u.c2 >= 0 (convex).
+  Cubic u;                  ///< The growing part; convex wherever the ball is valid.
+  bool bends = false;       ///< Whether `bend` may be other than zero.
+  IntervalVector bend = {};  ///< Half the known acceleration [m/s²].
 
   /// The centre at δ = 0.
   IntervalVector centre() const { return anchor + shift; }
+  /// The way from the centre at δ = 0 to the one at `delta`.
+  IntervalVector PathTo(double delta) const {
+    if (!bends) return Interval(delta) * velocity;
+    return Interval(delta) * (velocity + Interval(delta) * bend);
+  }
+  /// The velocity of the centre at `delta`.
+  IntervalVector VelocityAt(double delta) const {
+    return bends ? velocity + Interval(2 * delta) * bend : velocity;
+  }
   /// The whole radius.
-  Quadratic reach() const { return {radius + u.c0, u.c1, u.c2}; }
+  Cubic reach() const { return {radius + u.c0, u.c1, u.c2, u.c3}; }
 };
 
 /// The ball of the relative motion from A to B, larger by `margin` [m]: A and B come within the
 /// margin of each other when it contains the origin. (B, A) gives the negated centre and the same
 /// radius, bit for bit: negation is exact, and a + b is b + a.
 inline MovingBall Difference(const MovingBall& a, const MovingBall& b, double margin) {
-  return {b.anchor - a.anchor, b.shift - a.shift, b.velocity - a.velocity,
-          (a.radius + b.radius) + margin, a.u + b.u};
+  MovingBall difference{b.anchor - a.anchor, b.shift - a.shift, b.velocity - a.velocity,
+                        (a.radius + b.radius) + margin, a.u + b.u};
+  difference.bends = a.bends || b.bends;
+  if (difference.bends) difference.bend = b.bend - a.bend;
+  return difference;
 }
 
-/// A ball in plain doubles: at δ >= 0 [s] within s0 + s1 δ + s2 δ² [m] of c + v δ [m], where all s
-/// are >= 0. The rows of the filter include their own rounding in the reach. Difference() and
+/// A ball in plain doubles: at δ >= 0 [s] within s0 + s1 δ + s2 δ² + s3 δ³ [m] of c + v δ + bend δ²
+/// [m], where all s are >= 0. The rows of the filter include their own rounding in the reach. Difference() and
 /// QuickHornPair() round to nearest and account for it where they are used.
 struct QuickBall {
   double c[3];
   double v[3];
   double s0, s1, s2;
+  double s3 = 0;
+  double bend[3] = {0, 0, 0};  ///< Half the known acceleration [m/s²].
 };
 
 /// The ball of the relative motion from A to B, rounded to nearest: what that costs is part of the
@@ -79,8 +95,10 @@ inline QuickBall Difference(const QuickBall& a, const QuickBall& b) {
   for (int axis = 0; axis < 3; ++axis) {
     difference.c[axis] = b.c[axis] - a.c[axis];
     difference.v[axis] = b.v[axis] - a.v[axis];
+    difference.bend[axis] = b.bend[axis] - a.bend[axis];
   }
-  difference.s0 = a.s0 + b.s0, difference.s1 = a.s1 + b.s1, difference.s2 = a.s2 + b.s2;
+  difference.s0 = a.s0 + b.s0, difference.s1 = a.s1 + b.s1;
+  difference.s2 = a.s2 + b.s2, difference.s3 = a.s3 + b.s3;
   return difference;
 }
 

@@ -18,7 +18,7 @@ namespace collision::narrow_phase {
 struct ShapeMotion::Drift {
   numeric::Interval along;
   numeric::Interval spin_sum, spin_most;
-  numeric::Quadratic translation;
+  numeric::Cubic translation;
   numeric::Interval turned1_sum, turned2_sum, turned1_most, turned2_most;
 };
 
@@ -41,7 +41,7 @@ struct Turning {
 Turning TurningOf(const BodySegment& body, std::size_t bound, double at, TimeDirection direction) {
   if (!body.shape) return {0, 0, 0};
   const motion::MovingRotation& turn = body.turns[bound];
-  const numeric::Quadratic angle = From(turn.angle_error, at, direction);
+  const numeric::Cubic angle = From(turn.angle_error, at, direction);
   const numeric::Interval reach = TurningReachOf(body);
   return {reach * numeric::Norm(numeric::IntervalVector(turn.w_WB)),
           reach * numeric::Max(0, angle.c1), reach * angle.c2};
@@ -50,7 +50,7 @@ Turning TurningOf(const BodySegment& body, std::size_t bound, double at, TimeDir
 // The tangent's deviation ½ |ω|² h² belongs to what turning may move a point by.
 SweptPose::Growth GrowthOf(const motion::MovingRotation& turn, const ShapeMotion::Departure& from,
                            double chord) {
-  const numeric::Quadratic angle = From(turn.angle_error, from.at, from.direction);
+  const numeric::Cubic angle = From(turn.angle_error, from.at, from.direction);
   const bool bends = from.path == ShapeMotion::Departure::Path::kTangent;
   const numeric::Interval bend =
       bends ? numeric::Interval(0.5) *
@@ -177,7 +177,7 @@ SweptPose ShapeMotion::SweptFrom(const Departure& from, BoundChoice choice) cons
                                     TurningOf(b_, choice.of_b, from.at, from.direction).spin;
   swept.velocity_error =
       numeric::MultiplyUp(2 * swept.pose.matrix_error + kTurnRounding, fastest.upper);
-  const numeric::Quadratic u = From(ball_a.u + ball_b.u, from.at, from.direction);
+  const numeric::Cubic u = From(ball_a.u + ball_b.u, from.at, from.direction);
   swept.translation = {u.c0.upper, u.c1.upper, std::max(0.0, u.c2.upper)};
   if (a_.shape) swept.turning_A = GrowthOf(a_.turns[choice.of_a], from, swept.pose.chord_A);
   if (b_.shape) swept.turning_B = GrowthOf(b_.turns[choice.of_b], from, swept.pose.chord_B);

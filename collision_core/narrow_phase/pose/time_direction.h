@@ -1,7 +1,7 @@
 // Which way a query goes through a segment of time.
 #pragma once
 
-#include "collision_core/numeric/quadratic.h"
+#include "collision_core/numeric/cubic.h"
 
 namespace collision::narrow_phase {
 
@@ -9,7 +9,7 @@ namespace collision::narrow_phase {
 enum class TimeDirection { kForward, kBackward };
 
 /// The quadratic as a function of the seconds that have passed since `at` in this direction.
-inline numeric::Quadratic From(const numeric::Quadratic& quadratic, double at,
+inline numeric::Cubic From(const numeric::Cubic& quadratic, double at,
                                TimeDirection direction) {
   return direction == TimeDirection::kBackward ? quadratic.BackwardFrom(at) : quadratic.From(at);
 }

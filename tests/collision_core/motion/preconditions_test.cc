@@ -13,11 +13,11 @@ namespace {
 
 TEST(MotionPreconditions, ABoundWithoutACapHasNoCappedBall) {
   const SpaceTimeBound bound;
-  EXPECT_THROW(CappedSpeed(bound.limits), CheckFailure);
+  EXPECT_THROW(CappedSpeed(bound), CheckFailure);
   EXPECT_THROW(CapStartOf(bound), CheckFailure);
-  EXPECT_THROW(FaceCapStartOf(bound, 0, 1), CheckFailure);
+  EXPECT_THROW(FaceCapStartOf(bound, {0, 1}, 1), CheckFailure);
   EXPECT_THROW(CappedBallOf(bound), CheckFailure);
-  EXPECT_THROW(CappedFaceOf(bound, 0, 1, 1), CheckFailure);
+  EXPECT_THROW(CappedFaceOf(bound, {0, 1}, 1), CheckFailure);
   EXPECT_THROW(CheckCap(bound, bound.state), CheckFailure);
 }
 

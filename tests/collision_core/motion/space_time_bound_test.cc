@@ -31,8 +31,19 @@ void ExpectSame(const numeric::MovingBall& ball, const ExactHorn& horn) {
   EXPECT_TRUE(Contains(ball.u.c0, horn.u[0]));
   EXPECT_TRUE(Contains(ball.u.c1, horn.u[1]));
   EXPECT_TRUE(Contains(ball.u.c2, horn.u[2]));
-  EXPECT_LE(ball.u.c0.width(), 16 * 0x1p-52 * ball.u.c0.upper);
-  EXPECT_LE(ball.u.c2.width(), 0);
+  EXPECT_TRUE(Contains(ball.u.c3, horn.u.size() > 3 ? horn.u[3] : Exact(0)));
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto of = [axis](const numeric::IntervalVector& v) {
+      return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+    };
+    EXPECT_TRUE(Contains(of(ball.velocity), horn.v[axis]));
+    EXPECT_TRUE(Contains(of(ball.bend), horn.h[axis]));
+    const Exact later = horn.p[axis] + 3 * horn.v[axis] + 9 * horn.h[axis];
+    EXPECT_TRUE(Contains(of(ball.centre() + ball.PathTo(3)), later));
+    EXPECT_TRUE(Contains(of(ball.VelocityAt(3)), horn.v[axis] + 6 * horn.h[axis]));
+  }
+  EXPECT_LE(ball.u.c0.width(), 32 * 0x1p-52 * ball.u.c0.upper);
+  EXPECT_LE(ball.u.c2.width(), horn.u.size() > 3 ? 8 * 0x1p-52 * ball.u.c2.upper : 0);
 }
 
 // Goal:   the coefficients of both horns contain the exact ones, with errors, step and skew.
@@ -43,6 +54,11 @@ TEST(SpaceTimeBound, CoefficientsContainTheExactOnes) {
     SpaceTimeBound bound = AnyBound(random);
     bound.state.v_WA = Eigen::Vector3d(2, -3, 6) * std::ldexp(1, static_cast<int>(random.Below(9)));
     bound.skew = random.Chance(0.5) ? 0 : random.Uniform(0, 0.01);
+    if (random.Chance(0.5)) {
+      bound.state.a_WA =
+          Eigen::Vector3d(6, 2, -3) * std::ldexp(1, static_cast<int>(random.Below(9)) - 6);
+    }
+    if (random.Chance(0.5)) bound.limits.jerk_max = random.LogUniform(1e-3, 1e3);
     const auto apart = static_cast<std::int64_t>(random.Below(100 * kSecond));
     const std::int64_t stamp = bound.state.stamp.nanoseconds();
     const Instant later = Instant::FromNanoseconds(stamp + apart);
@@ -66,6 +82,26 @@ TEST(SpaceTimeBound, FormulaByHand) {
   const numeric::Interval u = ForwardBall(bound, Instant()).u.At(3);
   EXPECT_EQ(u.lower, 27.25);
   EXPECT_EQ(u.upper, 27.25);
+}
+
+// Goal:   likewise with a known acceleration and a jerk, at a value known by hand.
+// Method: beside the above a = (0, 6, 8), J = 3; σ = 4, h = 0.5 and κ = 1 make it
+//         10·(1 + 0.25)·4 + 3/6·4·(16 + 6 + 0.75) = 50 + 45.5 more.
+TEST(SpaceTimeBound, FormulaOfKnownAccelerationByHand) {
+  SpaceTimeBound bound;
+  bound.state.v_WA = {2, 3, 6};
+  bound.state.a_WA = {0, 6, 8};
+  bound.state.position_error = 0.25;
+  bound.state.velocity_error = 0.5;
+  bound.limits.acceleration_max = 2;
+  bound.limits.jerk_max = 3;
+  bound.limits.time_step = 0.5;
+  bound.skew = 1;
+  const numeric::MovingBall ball = ForwardBall(bound, Instant());
+  EXPECT_EQ(ball.u.At(3).lower, 27.25 + 95.5);
+  EXPECT_EQ(ball.u.At(3).upper, 27.25 + 95.5);
+  EXPECT_EQ(ball.PathTo(3).z.lower, 6 * 3 + 0.5 * 8 * 9);
+  EXPECT_EQ(ball.VelocityAt(3).z.upper, 6 + 8 * 3);
 }
 
 // Goal:   semi-implicit Euler with |a| = M never leaves the horn with its step, and leaves the one

@@ -74,8 +74,8 @@ double CappedRadius(const CappedBall& ball, Instant t) { return ball.UFrom(t).c0
 TEST(SpeedCap, StepAddsHalfOfWhatItGains) {
   SpaceTimeBound bound = Capped({0, 0, 0}, {4, 0, 0}, 8, 4);
   bound.limits.time_step = 0.25;
-  EXPECT_EQ(CappedSpeed(bound.limits).lower, 5);
-  EXPECT_EQ(CappedSpeed(bound.limits).upper, 5);
+  EXPECT_EQ(CappedSpeed(bound).lower, 5);
+  EXPECT_EQ(CappedSpeed(bound).upper, 5);
 }
 
 // Goal:   the cap takes over when the definition says, to the nanosecond below.
@@ -98,7 +98,7 @@ TEST(SpeedCap, TakesOverWhenTheSlopeReachesIt) {
       EXPECT_GE(after, Exact(-1.000001e-9) - abs(exact) * Exact(1e-15));
     };
     expect(CapStartOf(bound), (V - 7 - errors) / M - kappa);
-    expect(FaceCapStartOf(bound, -6, 0.5), (V + 6 - errors + M / 16) / (M / 2) - kappa);
+    expect(FaceCapStartOf(bound, {2, -1}, 0.5), (V + 6 - errors + M / 16) / (M / 2) - kappa);
   }
 }
 

@@ -53,14 +53,11 @@ TEST(QuickFirstApproach, LeavesTheRest) {
   EXPECT_GE(grazing.delta, 1 - 1e-6);
 }
 
-// Goal:   decided or not, no approach before the time given, to the last bit.
-// Method: numbers with few bits and of many magnitudes, exact Sturm chains; they are exact inputs.
-TEST(QuickFirstApproach, NeverLate) {
-  Random random(71);
-  ProofCounts counts;
+/// Draws approaches, judges each, and returns how many were decided.
+int JudgeApproaches(std::uint64_t seed, int approaches, bool bent, ProofCounts* counts) {
+  Random random(seed);
   int decided = 0;
-  constexpr int kApproaches = 20000;
-  for (int i = 0; i < kApproaches; ++i) {
+  for (int i = 0; i < approaches; ++i) {
     QuickBall a = {};
     const auto number = [&] {
       return std::ldexp(static_cast<double>(random.Below(64)), static_cast<int>(random.Below(12)));
@@ -70,20 +67,44 @@ TEST(QuickFirstApproach, NeverLate) {
     a.s0 = number() / 8;
     a.s1 = random.Chance(0.5) ? 0 : number() / 64;
     a.s2 = random.Chance(0.5) ? 0 : number() / 64;
-    const QuickAnswer answer = QuickFirstApproach({a, 0, 0}, kForever);
+    if (bent) {
+      for (double& h : a.bend) h = random.Chance(0.3) ? 0 : sign() * number() / 64;
+      a.s3 = random.Chance(0.3) ? 0 : number() / 256;
+    }
+    const QuickAnswer answer = QuickFirstApproach({a, 0, 0, 0, bent}, kForever);
     decided += answer.decided;
     DyadicPolynomial gap;
     for (int k = 0; k < 3; ++k) {
-      const DyadicPolynomial d = {a.c[k], a.v[k]};
+      const DyadicPolynomial d = {a.c[k], a.v[k], a.bend[k]};
       gap = gap + d * d;
     }
-    const DyadicPolynomial reach = {a.s0, a.s1, a.s2};
+    const DyadicPolynomial reach = {a.s0, a.s1, a.s2, a.s3};
     gap = gap + Dyadic(-1) * (reach * reach);
     std::optional<Dyadic> end;
     if (answer.delta < kForever) end = answer.delta;
-    ASSERT_TRUE(IsPositive(gap, 0, end, &counts)) << i;
+    EXPECT_TRUE(IsPositive(gap, 0, end, counts)) << i;
+    if (!answer.decided || answer.delta == kForever || answer.delta == 0) continue;
+    EXPECT_FALSE(IsPositive(gap, 0, Dyadic(answer.delta) * (Dyadic(1) + Dyadic(1e-9)), counts))
+        << i;
   }
-  EXPECT_GT(decided, kApproaches * 9 / 10);
+  return decided;
+}
+
+// Goal:   decided or not, no approach before the time given, to the last bit; decided, one by it and
+//         1e-9 of it.
+// Method: numbers with few bits and of many magnitudes, exact Sturm chains; they are exact inputs.
+TEST(QuickFirstApproach, NeverLate) {
+  constexpr int kApproaches = 20000;
+  ProofCounts counts;
+  EXPECT_GT(JudgeApproaches(71, kApproaches, false, &counts), kApproaches * 9 / 10);
+  EXPECT_GT(counts.sturm, 0u);
+}
+
+// Goal:   likewise where the centre bends and the reach grows with a jerk.
+TEST(QuickFirstApproach, NeverLateWhereItBends) {
+  constexpr int kApproaches = 20000;
+  ProofCounts counts;
+  EXPECT_GT(JudgeApproaches(75, kApproaches, true, &counts), kApproaches * 9 / 10);
   EXPECT_GT(counts.sturm, 0u);
 }
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "collision_core/base/check.h"
-#include "collision_core/numeric/quadratic.h"
+#include "collision_core/numeric/cubic.h"
 #include "collision_core/numeric/rotation.h"
 #include "collision_core/numeric/seconds.h"
 

@@ -15,15 +15,16 @@ inline bool BallsComeApart(const motion::SpaceTimeBound& before, const motion::M
   const motion::SpaceTimeBound after{next, before.limits, before.skew};
   const Instant base = before.state.stamp;
   const ExactHorn forward(before, base), backward(after, base, -1);
-  ExactPolynomial radii(3);
-  for (int i = 0; i < 3; ++i) radii[i] = share * (forward.u[i] + backward.u[i]);
+  ExactPolynomial radii(forward.u.size());
+  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] = share * (forward.u[i] + backward.u[i]);
   radii[0] += more;
   ExactPolynomial room = Multiply(radii, radii);
   for (int axis = 0; axis < 3; ++axis) {
     const ExactPolynomial d = {forward.p[axis] - backward.p[axis],
-                               forward.v[axis] - backward.v[axis]};
+                               forward.v[axis] - backward.v[axis],
+                               forward.h[axis] - backward.h[axis]};
     const ExactPolynomial square = Multiply(d, d);
-    for (int i = 0; i < 3; ++i) room[i] -= square[i];
+    for (int i = 0; i < 5; ++i) room[i] -= square[i];
   }
   const Exact end = ExactSeconds(base, next.stamp);
   const Exact at_end = Evaluate(room, end);

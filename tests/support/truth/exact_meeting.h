@@ -3,10 +3,10 @@
 // one thing: to which nanosecond a speed cap's take-over is rounded (speed_cap.h allows any
 // instant; speed_cap_test.cc checks that it is the right one).
 //
-// Time is x, nanoseconds after the base instant, lengths are multiplied by 1e18, so that every
-// coefficient is an integer times a power of two. Two numbers may be irrational, |v| κ and a
-// direction's √(d_y² + d_z²) / |d|: they are rounded at 2^-300, outward where freedom is proved and
-// inward where a meeting is.
+// Time is x, nanoseconds after the base instant, lengths are multiplied by 6e27, so that every
+// coefficient is an integer times a power of two, a sixth of a jerk too. Three numbers may be
+// irrational, |v| κ, |a| (κ + ½ h) and a direction's √(d_y² + d_z²) / |d|: they are rounded at
+// 2^-300, outward where freedom is proved and inward where a meeting is.
 #pragma once
 
 #include <array>
@@ -29,13 +29,13 @@ class ExactMeeting {
                Options options)
       : a_(a, base, options.up), b_(b, base, options.up), share_(options.share) {
     for (int i = 0; i < 3; ++i) {
-      between_[i] = Scaled2(Dyadic(b.state.p_WA[i]) - Dyadic(a.state.p_WA[i]));
-      magnitude_ =
-          magnitude_ + DyadicPolynomial{between_[i].Magnitude() + a_.LineAt0(i).Magnitude() +
-                                            b_.LineAt0(i).Magnitude(),
-                                        (b_.Slope(i) - a_.Slope(i)).Magnitude()};
+      between_[i] = Metres(Dyadic(b.state.p_WA[i]) - Dyadic(a.state.p_WA[i]));
+      magnitude_ = magnitude_ + DyadicPolynomial{between_[i].Magnitude()} + a_.MagnitudesAt0(i) +
+                   b_.MagnitudesAt0(i) +
+                   DyadicPolynomial{{}, (b_.Slope(i) - a_.Slope(i)).Magnitude(),
+                                    (b_.Bend(i) - a_.Bend(i)).Magnitude()};
     }
-    radii_ = Scaled2(Dyadic(a.limits.radius) + Dyadic(b.limits.radius));
+    radii_ = Metres(Dyadic(a.limits.radius) + Dyadic(b.limits.radius));
     AddBallTests();
     if (BoxesSayMore(a) || BoxesSayMore(b)) MakeBoxes(a, b, base);
   }
@@ -72,7 +72,12 @@ class ExactMeeting {
   using Timeline = std::vector<Piece>;  ///< From 0 on, in order.
 
   static Dyadic kNano() { return Dyadic::Integer(1'000'000'000); }
-  static Dyadic Scaled2(const Dyadic& x) { return kNano() * kNano() * x; }
+
+  /// Lengths, speeds, accelerations and jerks in the units of this file.
+  static Dyadic Jerk(const Dyadic& x) { return Dyadic::Integer(6) * x; }
+  static Dyadic Acceleration(const Dyadic& x) { return kNano() * Jerk(x); }
+  static Dyadic Speed(const Dyadic& x) { return kNano() * Acceleration(x); }
+  static Dyadic Metres(const Dyadic& x) { return kNano() * Speed(x); }
 
   /// A ball about p_WA + line(x) of radius r + u(x), or a face; from `start` on.
   struct Reach {
@@ -91,28 +96,53 @@ class ExactMeeting {
     Agent(const motion::SpaceTimeBound& of, Instant from, bool round_up)
         : bound(of), base(from), up(round_up), since(Between(of.state.stamp, from)) {
       const Dyadic skew = kNano() * Dyadic(bound.skew);
+      const Dyadic step = kNano() * Dyadic(bound.limits.time_step);
       const DyadicPolynomial sigma = {since + skew, 1.0};
       DyadicPolynomial longer = sigma;
-      longer[0] = longer[0] + kNano() * Dyadic(bound.limits.time_step);
-      deviation = Dyadic(bound.limits.acceleration_max).Scaled(-1) * (sigma * longer);
-      errors = kNano() * Dyadic(bound.state.velocity_error) * sigma;
-      errors[0] = errors[0] + Scaled2(bound.state.position_error);
-      if (bound.skew > 0) {
-        Dyadic square;
-        for (int i = 0; i < 3; ++i) square = square + Velocity(i) * Velocity(i);
-        errors[0] = errors[0] + Scaled2(Dyadic(bound.skew) * Dyadic::Root(square, up));
+      longer[0] = longer[0] + step;
+      deviation = Acceleration(bound.limits.acceleration_max).Scaled(-1) * (sigma * longer);
+      if (bound.limits.jerk_max > 0) {
+        DyadicPolynomial cube = longer * (longer * longer);
+        cube[0] = cube[0] - step * step * step;
+        deviation = deviation + Dyadic(bound.limits.jerk_max) * cube;
+      }
+      errors = Speed(bound.state.velocity_error) * sigma;
+      errors[0] = errors[0] + Metres(bound.state.position_error);
+      if (bound.skew > 0) errors[0] = errors[0] + Speed(skew * Length(bound.state.v_WA));
+      if (!bound.state.a_WA.isZero(0)) {
+        const Dyadic rate = Acceleration(Length(bound.state.a_WA)) * (skew + step.Scaled(-1));
+        errors = errors + rate * sigma;
       }
     }
 
-    Dyadic Velocity(int i) const { return bound.state.v_WA[i]; }
-    Dyadic Slope(int i) const { return kNano() * Velocity(i); }
-    Dyadic LineAt0(int i) const { return Slope(i) * since; }
+    Dyadic Length(const Eigen::Vector3d& v) const {
+      Dyadic square;
+      for (int i = 0; i < 3; ++i) square = square + Dyadic(v[i]) * Dyadic(v[i]);
+      return Dyadic::Root(square, up);
+    }
 
-    /// V' = V + ½ M h, a nanosecond's worth of it.
+    /// The centre's coefficients in x, from p_WA.
+    Dyadic Bend(int i) const { return Acceleration(bound.state.a_WA[i]).Scaled(-1); }
+    Dyadic Slope(int i) const {
+      return Speed(bound.state.v_WA[i]) + Acceleration(bound.state.a_WA[i]) * since;
+    }
+    Dyadic LineAt0(int i) const {
+      return (Speed(bound.state.v_WA[i]) + Bend(i) * since) * since;
+    }
+    /// Of the terms whose sums those are: what rounding is relative to.
+    DyadicPolynomial MagnitudesAt0(int i) const {
+      const Dyadic faster = (Acceleration(bound.state.a_WA[i]) * since).Magnitude();
+      const Dyadic bent = (Bend(i) * since * since).Magnitude();
+      return {(Speed(bound.state.v_WA[i]) * since).Magnitude() + bent, faster};
+    }
+
+    /// V' = V + ½ (M + |a|) h, a nanosecond's worth of it; with a jerk V, or with steps 2 V.
     Dyadic CapSlope() const {
       const motion::MotionLimits& d = bound.limits;
-      return kNano() *
-             (Dyadic(d.speed_max) + (Dyadic(d.acceleration_max) * Dyadic(d.time_step)).Scaled(-1));
+      if (d.jerk_max > 0) return Speed(d.speed_max).Scaled(d.time_step > 0 ? 1 : 0);
+      Dyadic fastest = d.acceleration_max;
+      if (!bound.state.a_WA.isZero(0)) fastest = fastest + Length(bound.state.a_WA);
+      return Speed(Dyadic(d.speed_max) + (fastest * Dyadic(d.time_step)).Scaled(-1));
     }
 
     /// u, frozen at x = from, growing with the cap.
@@ -122,7 +152,7 @@ class ExactMeeting {
 
     std::vector<Reach> Balls() const {
       Reach horn{{}, {}, errors + deviation};
-      for (int i = 0; i < 3; ++i) horn.line[i] = {LineAt0(i), Slope(i)};
+      for (int i = 0; i < 3; ++i) horn.line[i] = {LineAt0(i), Slope(i), Bend(i)};
       if (!HasSpeedCap(bound.limits)) return {horn};
       const Instant takes_over = CapStartOf(bound);
       if (takes_over.is_never()) return {horn};
@@ -145,12 +175,12 @@ class ExactMeeting {
     std::vector<Reach> Face(int axis, int sign, bool holds) const {
       const Dyadic along = Dyadic::Integer(sign);
       Reach horn{{}, {}, errors + Fraction(axis, sign, holds) * deviation};
-      horn.line[0] = {along * LineAt0(axis), along * Slope(axis)};
+      horn.line[0] = {along * LineAt0(axis), along * Slope(axis), along * Bend(axis)};
       if (!HasSpeedCap(bound.limits)) return {horn};
       const motion::DirectionalReach reach =
           holds ? ReachOfDirection(bound.state) : motion::DirectionalReach();
       const Instant takes_over =
-          FaceCapStartOf(bound, sign * bound.state.v_WA[axis],
+          FaceCapStartOf(bound, {axis, sign},
                          (sign > 0 ? reach.upward : reach.downward)[axis].upper);
       if (takes_over.is_never()) return {horn};
       const Dyadic from = Between(base, takes_over);
@@ -299,7 +329,8 @@ class ExactMeeting {
   }
 
   /// Are all conditions >= 0 somewhere in [lo, hi), or [lo, hi]? If so then first at lo or at a
-  /// root of one of them.
+  /// root of one of them. Of cubics a closed stretch is only asked at its ends: there a meeting is
+  /// to be shown, and a meeting that is over at the end would be missed, which nothing here needs.
   static bool MeetWithin(const std::vector<DyadicPolynomial>& conditions, const Dyadic& lo,
                          const std::optional<Dyadic>& hi, bool closed) {
     const auto all_at = [&conditions](const Dyadic& x) {
@@ -307,6 +338,10 @@ class ExactMeeting {
                          [&x](const DyadicPolynomial& q) { return ValueAt(q, x).Sign() >= 0; });
     };
     if (all_at(lo) || (closed && all_at(*hi))) return true;
+    const bool cubic = std::any_of(conditions.begin(), conditions.end(),
+                                   [](const DyadicPolynomial& q) { return q[3].Sign() != 0; });
+    if (cubic) return !closed && !(hi ? OneIsNegative(conditions, lo, *hi)
+                                      : OneIsNegativeFrom(conditions, lo));
     for (const DyadicPolynomial& q : conditions) {
       for (const QuadraticRoot& root : RootsOf(q)) {
         if (root.SignOf({-lo, 1.0, {}}) <= 0) continue;

@@ -10,7 +10,7 @@
 
 namespace collision {
 
-/// A polynomial of degree 4 at most; the constant first.
+/// A polynomial of degree 6 at most; the constant first.
 class DyadicPolynomial {
  public:
   DyadicPolynomial() = default;
@@ -42,7 +42,7 @@ class DyadicPolynomial {
   void resize(std::size_t size) { size_ = size; }
 
  private:
-  std::array<Dyadic, 5> c_;  // Zero from size_ on.
+  std::array<Dyadic, 7> c_;  // Zero from size_ on.
   std::size_t size_ = 0;
 };
 
@@ -144,35 +144,79 @@ struct ProofCounts {
   std::uint64_t bernstein = 0, sturm = 0;
 };
 
-/// A cheap sufficient proof that p > 0 on [lo, hi), or, without `hi`, on [lo, +infinity): in the
-/// Bernstein basis of the stretch, of up to 2^depth parts of it, all coefficients are positive (the
-/// last may be 0). p has degree 4 at most.
-inline bool PositiveByBernstein(const DyadicPolynomial& p, const Dyadic& lo,
-                                const std::optional<Dyadic>& hi, int depth) {
-  DyadicPolynomial c = Shifted(p, lo);
-  if (c.empty() || c[0].Sign() <= 0) return false;
-  if (!hi) return std::all_of(c.begin(), c.end(), [](const Dyadic& x) { return x.Sign() >= 0; });
-  c.resize(5);
-  const Dyadic width = *hi - lo;
+/// The coefficients of p, times a positive number, in the Bernstein basis of [lo, lo + width], as
+/// many as p's degree needs: 5, or 7 above degree 4. p = c[0] + c[1] (x − lo) + ….
+inline std::vector<Dyadic> BernsteinOf(DyadicPolynomial c, const Dyadic& width) {
+  // 12 b_k = 12 Σ_i C(k, i) / C(4, i) c_i width^i, and 60 b_k with C(6, i).
+  static constexpr int kOf4[5][5] = {
+      {12, 0, 0, 0, 0}, {12, 3, 0, 0, 0}, {12, 6, 2, 0, 0}, {12, 9, 6, 3, 0}, {12, 12, 12, 12, 12}};
+  static constexpr int kOf6[7][7] = {
+      {60, 0, 0, 0, 0, 0, 0},      {60, 10, 0, 0, 0, 0, 0},     {60, 20, 4, 0, 0, 0, 0},
+      {60, 30, 12, 3, 0, 0, 0},    {60, 40, 24, 12, 4, 0, 0},   {60, 50, 40, 30, 20, 10, 0},
+      {60, 60, 60, 60, 60, 60, 60}};
+  const std::size_t size = c.size() > 5 ? 7 : 5;
+  c.resize(size);
   Dyadic power = width;
-  for (int i = 1; i < 5; ++i) {
+  for (std::size_t i = 1; i < size; ++i) {
     c[i] = power * c[i];
     power = power * width;
   }
-  // 12 b_k = 12 Σ_i C(k, i) / C(4, i) c_i.
-  static constexpr int kWeights[5][5] = {
-      {12, 0, 0, 0, 0}, {12, 3, 0, 0, 0}, {12, 6, 2, 0, 0}, {12, 9, 6, 3, 0}, {12, 12, 12, 12, 12}};
-  bool positive = true;
-  for (int k = 1; k < 5 && positive; ++k) {
-    Dyadic b;
-    for (int i = 0; i <= k; ++i) b = b + Dyadic::Integer(kWeights[k][i]) * c[i];
-    positive = k < 4 ? b.Sign() > 0 : b.Sign() >= 0;
+  std::vector<Dyadic> bernstein(size);
+  for (std::size_t k = 0; k < size; ++k) {
+    for (std::size_t i = 0; i <= k; ++i) {
+      bernstein[k] =
+          bernstein[k] + Dyadic::Integer(size == 7 ? kOf6[k][i] : kOf4[k][i]) * c[i];
+    }
   }
+  return bernstein;
+}
+
+/// A cheap sufficient proof that p > 0 on [lo, hi), or, without `hi`, on [lo, +infinity): in the
+/// Bernstein basis of the stretch, of up to 2^depth parts of it, all coefficients are positive (the
+/// last may be 0).
+inline bool PositiveByBernstein(const DyadicPolynomial& p, const Dyadic& lo,
+                                const std::optional<Dyadic>& hi, int depth) {
+  const DyadicPolynomial c = Shifted(p, lo);
+  if (c.empty() || c[0].Sign() <= 0) return false;
+  if (!hi) return std::all_of(c.begin(), c.end(), [](const Dyadic& x) { return x.Sign() >= 0; });
+  const std::vector<Dyadic> b = BernsteinOf(c, *hi - lo);
+  const bool positive =
+      std::all_of(b.begin(), b.end() - 1, [](const Dyadic& x) { return x.Sign() > 0; }) &&
+      b.back().Sign() >= 0;
   if (positive || depth == 0) return positive;
   if (ValueAt(p, *hi).Sign() < 0) return false;
   const Dyadic middle = (lo + *hi).Scaled(-1);
   return PositiveByBernstein(p, lo, middle, depth - 1) &&
          PositiveByBernstein(p, middle, hi, depth - 1);
+}
+
+/// Is at every x in [lo, hi) one of these below 0? Proved on ever smaller stretches; false may also
+/// mean that 2^-depth of the whole was not small enough.
+inline bool OneIsNegative(const std::vector<DyadicPolynomial>& all, const Dyadic& lo,
+                          const Dyadic& hi, int depth = 80) {
+  for (const DyadicPolynomial& p : all) {
+    const std::vector<Dyadic> b = BernsteinOf(Shifted(p, lo), hi - lo);
+    if (std::all_of(b.begin(), b.end() - 1, [](const Dyadic& x) { return x.Sign() < 0; }) &&
+        b.back().Sign() <= 0) {
+      return true;
+    }
+  }
+  if (depth == 0) return false;
+  const bool none_at_lo = std::all_of(all.begin(), all.end(), [&](const DyadicPolynomial& p) {
+    return ValueAt(p, lo).Sign() >= 0;
+  });
+  if (none_at_lo) return false;
+  const Dyadic middle = (lo + hi).Scaled(-1);
+  return OneIsNegative(all, lo, middle, depth - 1) && OneIsNegative(all, middle, hi, depth - 1);
+}
+
+/// The same without an end: there one that stays below 0 is looked for beyond 2^50.
+inline bool OneIsNegativeFrom(const std::vector<DyadicPolynomial>& all, const Dyadic& lo) {
+  const Dyadic far = lo.Magnitude() + Dyadic(0x1p50);
+  return OneIsNegative(all, lo, far) &&
+         std::any_of(all.begin(), all.end(), [&](const DyadicPolynomial& p) {
+           return PositiveByBernstein(Dyadic(-1.0) * p, far, std::nullopt, 0);
+         });
 }
 
 /// Is p > 0 on all of [lo, hi), or [lo, +infinity)? Always decided: by Sturm's theorem at the
