@@ -13,7 +13,8 @@ class Shape;
 namespace collision::detection {
 
 /// What an owner declares about an agent once, and what then holds from state to state. A change
-/// that promises less (a larger radius or M, another shape, wider masks) is a *widening*: the
+/// that promises less (a larger radius or M, another shape, a filter that keeps
+/// it apart from fewer) is a *widening*: the
 /// detector queries the agent for all partners again.
 struct AgentDeclaration {
   motion::MotionLimits limits{};

@@ -17,7 +17,7 @@ enum class EventStatus {
   kConfirmed,  ///< Contact is certified.
   kDismissed,  ///< No contact took place, and the two are far apart again.
   kUndecided,  ///< The interval is over; neither contact nor freedom could be certified in it.
-  kWithdrawn,  ///< An agent was removed or expired, or a mask now excludes the pair; no contact.
+  kWithdrawn,  ///< An agent was removed or expired, or a filter keeps the two apart; no contact.
   kEnded       ///< The contact has ended, or its end is unknown: then end.latest is Never().
 };
 
