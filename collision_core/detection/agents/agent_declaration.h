@@ -19,6 +19,9 @@ namespace collision::detection {
 struct AgentDeclaration {
   motion::MotionLimits limits{};
   broad_phase::CollisionFilter filter{};
+  /// The agent counts as touching whatever comes within this of it [m], >= 0; of two agents the sum
+  /// counts. `limits.radius` and `shape` contain it already (shape/grown_shape.h); events tell it.
+  double margin = 0;
   /// The shape, within the ball of `limits.radius`; null: the ball itself.
   std::shared_ptr<const shape::Shape> shape = nullptr;
   /// The shape is not known yet: it lies somewhere within the ball. The ball then excludes contacts

@@ -16,6 +16,7 @@ struct PairName {
   AgentId lower, higher;
   AgentIndex lower_index, higher_index;
   PairSlot slot;
+  double margin = 0;  ///< As in CollisionEvent.
 };
 
 /// What has been published about a pair.

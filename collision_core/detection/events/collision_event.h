@@ -49,6 +49,9 @@ struct CollisionEvent {
   bool continuous = true;  ///< Contact is certified without a gap on [begin.latest, end.earliest].
   /// The contact may have begun before one of the two was admitted, jumped or broke its bound.
   bool began_before = false;
+  /// The margins of the two together [m]. With a margin, everything here is about the bodies grown
+  /// by it: a contact begins where the two come within it of each other.
+  double margin = 0;
   /// The instant at which the values below hold, within a nanosecond; Never(): they are not known.
   Instant evaluated_at = Instant::Never();
   double separation_lower = 0;  ///< The distance of the surfaces is at least this [m].
