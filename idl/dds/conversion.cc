@@ -85,8 +85,10 @@ FIELDS(AgentDescription,
        VALUE(revision) VALUE(sequence) VALUE(states_sequence) TEXT(simulator_name)
        TEXT(agent_name) VALUE(radius_m)
        VALUE(acceleration_max_m_s2) VALUE(angular_acceleration_max_rad_s2) VALUE(speed_max_m_s)
-       VALUE(time_step_s) VALUE(group) VALUE(mask) HASH(shape_hash)
-       LIST(extensions, wire::kDescriptionExtensionsMax))
+       VALUE(time_step_s) TEXT(class_name) VALUE(margin_m) HASH(shape_hash)
+       LIST(extensions, wire::kDescriptionExtensionsMax) TEXT(assembly)
+       LIST(meets_in_assembly, wire::kPartnersListedMax)
+       LIST(never_meets, wire::kPartnersListedMax))
 
 FIELDS(ShapePart,
        VALUE(simulator_id) VALUE(shape) VALUE(part) HASH(content_hash) VALUE(parts) VALUE(run)
@@ -126,10 +128,10 @@ FIELDS(EarliestIntersection,
 FIELDS(CollisionEvent,
        VALUE(pair_slot) MESSAGE(stamp) VALUE(now_ns) VALUE(contacts_sequence) MESSAGE(lower)
        MESSAGE(higher) VALUE(contact) VALUE(revision) VALUE(status) MESSAGE(begin) MESSAGE(end)
-       VALUE(continuous) VALUE(began_before) VALUE(evaluated_at_ns) MESSAGE(separation_m)
-       VALUE(depth_lower_m) MESSAGE(point_m) VALUE(point_error_m) MESSAGE(normal)
-       VALUE(normal_error_rad) VALUE(level) VALUE(work_units) VALUE(limited_by)
-       LIST(extensions, wire::kEventExtensionsMax))
+       VALUE(continuous) VALUE(began_before) VALUE(evaluated_at_ns)
+       MESSAGE(separation_m) VALUE(depth_lower_m) MESSAGE(point_m) VALUE(point_error_m)
+       MESSAGE(normal) VALUE(normal_error_rad) VALUE(level) VALUE(work_units) VALUE(limited_by)
+       LIST(extensions, wire::kEventExtensionsMax) VALUE(margin_m))
 
 FIELDS(Rejection,
        VALUE(simulator_id) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(run_in_force)

@@ -24,6 +24,8 @@ std::size_t BoundOf(const std::string& type, const std::string& name) {
 TEST(Limits, LengthsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("AgentDescription", "simulator_name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("AgentDescription", "agent_name"), wire::kNameMax);
+  EXPECT_EQ(BoundOf("AgentDescription", "class_name"), wire::kClassNameMax);
+  EXPECT_EQ(BoundOf("AgentDescription", "assembly"), wire::kNameMax);
   EXPECT_EQ(BoundOf("SimulatorClock", "simulator_name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("SimulatorStatus", "name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("ServiceStatus", "world"), wire::kNameMax);
@@ -44,6 +46,8 @@ TEST(Limits, CountsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("ServiceStatus", "simulators"), count(wire::kStatusSimulatorsMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "counters"), count(wire::kStatusCountersMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "left_out"), count(wire::kStatusLeftOutMax));
+  EXPECT_EQ(BoundOf("AgentDescription", "meets_in_assembly"), count(wire::kPartnersListedMax));
+  EXPECT_EQ(BoundOf("AgentDescription", "never_meets"), count(wire::kPartnersListedMax));
   EXPECT_EQ(BoundOf("AgentDescription", "extensions"), count(wire::kDescriptionExtensionsMax));
   EXPECT_EQ(BoundOf("CollisionEvent", "extensions"), count(wire::kEventExtensionsMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "extensions"), count(wire::kStatusExtensionsMax));
