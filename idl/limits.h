@@ -26,6 +26,9 @@ inline constexpr double kRadiusMax = 1e12;  ///< [m] Beyond Jupiter's orbit; als
 inline constexpr double kAngularSpeedMax = 1e9;  ///< [rad/s]
 inline constexpr double kTimeStepMax = 3600;     ///< [s] The step of a sender's integrator.
 
+/// [m] A margin is 0 or at least this: with less, triangles grown by it would be too small.
+inline constexpr double kMarginMin = 1e-6;
+
 /// [rad] π rounded up: an orientation that may be off by this is unknown.
 inline constexpr double kRotationErrorMax = 3.1415926535897936;
 
@@ -44,6 +47,7 @@ inline constexpr double kShapeRadiusTolerance = 1e-9;
 inline constexpr std::uint32_t kSlotMax = 65535;  ///< Slots are reused, so 65536 are enough.
 inline constexpr int kStatesPerChunkMax = 64;     ///< Slots in a chunk of states or clearances.
 inline constexpr int kStatesPerSampleMax = 128;   ///< With those before them that are jumps.
+inline constexpr int kClassesMax = 31;  ///< Named classes of agents; with the one without, 32.
 inline constexpr std::uint32_t kDomainMax = 230;  ///< Higher DDS domains have ports beyond 65535.
 inline constexpr std::size_t kShapeTrianglesMax = 5'000'000;  ///< Of one shape, in any service.
 inline constexpr std::size_t kShapeSolidsMax = 65536;         ///< Convex solids of one shape.
@@ -92,6 +96,8 @@ inline constexpr int kContactsForLateJoiners = 1024;
 
 inline constexpr std::size_t kNameMax = 64;          ///< Of worlds, simulators, agents, assemblies.
 inline constexpr std::size_t kLabelMax = 64;         ///< Of frames, epochs, versions.
+inline constexpr std::size_t kClassNameMax = 32;      ///< AgentDescription::class_name.
+inline constexpr int kPartnersListedMax = 16;         ///< Each list of names of a description.
 inline constexpr std::size_t kRefusedFieldMax = 64;  ///< Rejection::field.
 inline constexpr std::size_t kRefusalDetailMax = 256;   ///< Rejection::detail.
 inline constexpr std::size_t kExtensionValueMax = 256;  ///< KeyValue::value.

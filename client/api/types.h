@@ -52,17 +52,26 @@ struct AgentLabel {
 struct AgentDescription {
   std::string name = {};  ///< 1 to 64 bytes, for people.
   double radius_m = 0;    ///< Ball about the reference point that contains the agent.
+  /// Whatever comes within this of the agent counts as touching it; of two agents the sum of both
+  /// counts. 0, or at least 1e-6.
+  double margin_m = 0;
   /// Never exceeded between two states without a discontinuity. Two agents at rest with 0 cannot
   /// move: the service tells nothing of the two, even if they overlap.
   double acceleration_max_m_s2 = 0;
   double angular_acceleration_max_rad_s2 = -1;  ///< < 0: not declared.
   double speed_max_m_s = 0;  ///< Of the reference point, never exceeded; 0: not declared.
   double time_step_s = 0;    ///< Step h of an Euler integrator; 0: the motion is continuous.
-  std::uint32_t group = 1;   ///< Bits of the groups that this agent belongs to.
-  std::uint32_t mask = ~0u;  ///< Bits of the groups that it can collide with.
-  /// Agents of this simulator that belong together, such as the links of an arm; at most 64 bytes,
-  /// empty: none.
+  /// One of the classes that the service's configuration names, which says whom it can meet; empty:
+  /// it can meet all. At most 32 bytes.
+  std::string class_name = {};
+  /// The agents of one assembly of this simulator, as the links of a robot, never meet each other;
+  /// empty: of none. At most 64 bytes.
   std::string assembly = {};
+  /// Names of agents of its assembly that it can meet after all. At most 16; of two agents one is
+  /// enough to list the other.
+  std::vector<std::string> meets_in_assembly = {};
+  /// Names of agents of this simulator that it never meets. Likewise; this wins.
+  std::vector<std::string> never_meets = {};
   /// Words about it for those who look, "kind" "forklift": at most 16, with different keys of 1 to
   /// 32 bytes and values of at most 64. They stand in every event of the agent.
   std::vector<Tag> tags = {};
@@ -129,8 +138,9 @@ struct Event {
   EventStatus status = EventStatus::kPossible;
   TimeBracket begin;
   TimeBracket end;
-  bool continuous = true;                 ///< Contact is certified without a gap from begin to end.
-  bool began_before = false;              ///< Perhaps before either agent was known, or jumped.
+  bool continuous = true;     ///< Contact is certified without a gap from begin to end.
+  bool began_before = false;  ///< Perhaps before either agent was known, or jumped.
+  double margin_m = 0;  ///< Of the two: this event is about the bodies grown by their margins.
   std::int64_t evaluated_at_ns = kNever;  ///< What follows holds in this nanosecond; kNever: unset.
   double separation_lower_m = 0;          ///< Distance of the surfaces, negative inside: at least.
   double separation_upper_m = 0;          ///< At most.

@@ -96,6 +96,34 @@ void CheckTags(const std::vector<Tag>& tags) {
   }
 }
 
+void CheckPartners(const char* field, const std::vector<std::string>& names,
+                   const std::string& own_name) {
+  if (names.size() > static_cast<std::size_t>(wire::kPartnersListedMax)) {
+    Refuse(field, std::to_string(names.size()) + " names",
+           "at most " + std::to_string(wire::kPartnersListedMax));
+  }
+  for (const std::string& name : names) {
+    CheckText(field, name, 1, kNameMax);
+    if (name == own_name) {
+      Refuse(field, "\"" + name + "\"", "names of other agents of this simulator");
+    }
+  }
+}
+
+void CheckPartners(const AgentDescription& description) {
+  if (!description.class_name.empty() && !wire::IsName(description.class_name)) {
+    Refuse("class_name", "\"" + description.class_name + "\"", "A-Z a-z 0-9 _ -");
+  }
+  CheckText("class_name", description.class_name, 0, wire::kClassNameMax);
+  CheckPartners("meets_in_assembly", description.meets_in_assembly, description.name);
+  CheckPartners("never_meets", description.never_meets, description.name);
+  for (const std::string& name : description.never_meets) {
+    if (std::ranges::count(description.meets_in_assembly, name) == 0) continue;
+    Refuse("never_meets", "\"" + name + "\", which meets_in_assembly names too",
+           "in one of the two");
+  }
+}
+
 void RequireIdentifier(const char* field, const std::string& name) {
   if (wire::IsName(name)) return;
   throw std::runtime_error(std::string(field) + ": \"" + name + "\", allowed: " + wire::kNameText);
@@ -108,11 +136,17 @@ void Validate(const AgentDescription& description) {
   CheckText("assembly", description.assembly, 0, kNameMax);
   CheckTags(description.tags);
   CheckNumber("radius_m", description.radius_m, 0, kRadiusMax);
+  CheckNumber("margin_m", description.margin_m, 0, kRadiusMax);
+  if (description.margin_m > 0 && description.margin_m < wire::kMarginMin) {
+    Refuse("margin_m", Text(description.margin_m),
+           "0, or " + Text(wire::kMarginMin) + " to " + Text(kRadiusMax));
+  }
   CheckNumber("acceleration_max_m_s2", description.acceleration_max_m_s2, 0, kAccelerationMax);
   CheckNumber("angular_acceleration_max_rad_s2", description.angular_acceleration_max_rad_s2,
               -kAccelerationMax, kAccelerationMax);
   CheckNumber("speed_max_m_s", description.speed_max_m_s, 0, kSpeedMax);
   CheckNumber("time_step_s", description.time_step_s, 0, kTimeStepMax);
+  CheckPartners(description);
   if (description.shape) CheckHolds(description.radius_m, *description.shape);
 }
 

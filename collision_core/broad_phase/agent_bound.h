@@ -5,22 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "collision_core/broad_phase/collision_filter.h"
 #include "collision_core/intersection/intersection_query.h"
 
 namespace collision::broad_phase {
-
-/// The groups that an agent belongs to and those that it can meet, as bits.
-struct CollisionFilter {
-  std::uint32_t group = 1;   ///< Groups that the agent belongs to.
-  std::uint32_t mask = ~0u;  ///< Groups that it can meet.
-
-  friend bool operator==(const CollisionFilter&, const CollisionFilter&) = default;
-};
-
-/// A pair can meet only if each is in a group that the other's mask names.
-inline bool CanMeet(const CollisionFilter& a, const CollisionFilter& b) {
-  return (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
-}
 
 /// What the broad phase holds of an agent. A bound alone stands for one that can meet every other.
 struct AgentBound {

@@ -91,7 +91,7 @@ class Detector {
   /// that none of its states is believed: in the next step its agents expire, each to come back
   /// with its next state. What was promised to them, and to others about them, is void from `from`
   /// on: the clearances of these agents, and of all that can meet one of them, tell so with kSkew.
-  /// O(agents) where masks let them meet.
+  /// O(agents) where their filters let them meet.
   void VoidOwner(const OwnerId& owner, Instant from);
 
   /// Brings everything to `now` (never backward): afterwards every pair that may meet before

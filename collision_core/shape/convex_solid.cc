@@ -198,4 +198,25 @@ ConvexSolid ConvexSolid::Build(const ConvexDescription& d) {
   return solid;
 }
 
+// Its core is the same, so that every fact changes by what the rounding does. An inner point that
+// is not certain stays so.
+ConvexSolid ConvexSolid::Grown(double more) const {
+  CORE_CHECK(more >= 0 && more < numeric::kInfinity, "a solid grows by a finite length", more);
+  ConvexSolid grown = *this;
+  double& rounding = grown.set_.rounding;
+  rounding = numeric::AddUp(rounding, more);
+  const double added = numeric::AddUp(rounding, -set_.rounding);
+  ConvexFacts& facts = grown.facts_;
+  facts.radius = numeric::AddUp(facts.radius, added);
+  facts.ball_radius = numeric::AddUp(facts.ball_radius, added);
+  for (int axis = 0; axis < 3; ++axis) {
+    facts.lower[axis] = numeric::AddDown(facts.lower[axis], -added);
+    facts.upper[axis] = numeric::AddUp(facts.upper[axis], added);
+  }
+  if (facts.inradius > 0) {
+    facts.inradius = numeric::AddDown(facts.inradius, numeric::AddDown(rounding, -set_.rounding));
+  }
+  return grown;
+}
+
 }  // namespace collision::shape

@@ -56,6 +56,10 @@ class ConvexSolid {
   /// Requires a description that passed RefusalOf(). Deterministic.
   static ConvexSolid Build(const ConvexDescription& description);
 
+  /// This solid and all points within `more` of it: its rounding is the sum, rounded up. Requires
+  /// `more` >= 0 and finite.
+  ConvexSolid Grown(double more) const;
+
   /// In the body frame; valid while the solid, or a copy of it, lives.
   const geometry::ConvexSet& set() const { return set_; }
   const ConvexFacts& facts() const { return facts_; }

@@ -58,6 +58,11 @@ class Shape {
   /// Whether the two are twins: only their trees differ.
   bool IsSameBodyAs(const Shape& other) const { return body_ == other.body_; }
 
+  /// The surface of a compound, or the shape itself where it has no solids; null: no surface.
+  static std::shared_ptr<const Shape> SurfaceOf(const std::shared_ptr<const Shape>& shape) {
+    return shape->solids_.empty() ? shape : shape->surface_;
+  }
+
   /// The triangles of the surface; empty if there is none.
   const geometry::TriangleMesh& mesh() const { return surface_ ? surface_->mesh_ : mesh_; }
   const std::vector<ConvexSolid>& solids() const { return solids_; }

@@ -100,9 +100,9 @@ FIELDS(AgentDescription,
        VALUE(revision) VALUE(sequence) VALUE(states_sequence) TEXT(simulator_name)
        TEXT(agent_name) VALUE(radius_m)
        VALUE(acceleration_max_m_s2) VALUE(angular_acceleration_max_rad_s2) VALUE(speed_max_m_s)
-       VALUE(time_step_s) VALUE(group) VALUE(mask) HASH(shape_hash)
-       TEXT(assembly)
-       LIST(tags, wire::kTagsMax))
+       VALUE(time_step_s) TEXT(class_name) VALUE(margin_m) HASH(shape_hash) TEXT(assembly)
+       LIST(meets_in_assembly, wire::kPartnersListedMax)
+       LIST(never_meets, wire::kPartnersListedMax) LIST(tags, wire::kTagsMax))
 
 FIELDS(ShapePart,
        VALUE(simulator_id) VALUE(shape) VALUE(part) HASH(content_hash) VALUE(parts) VALUE(run)
@@ -148,7 +148,7 @@ FIELDS(CollisionEvent,
        VALUE(continuous) VALUE(began_before) VALUE(evaluated_at_ns) MESSAGE(separation_m)
        VALUE(depth_lower_m) MESSAGE(point_m) VALUE(point_error_m) MESSAGE(normal)
        VALUE(normal_error_rad) VALUE(level) VALUE(work_units) VALUE(limited_by)
-       LIST(extensions, wire::kEventExtensionsMax))
+       LIST(extensions, wire::kEventExtensionsMax) VALUE(margin_m))
 
 FIELDS(Rejection,
        VALUE(simulator_id) VALUE(region) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(run_in_force)

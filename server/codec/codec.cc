@@ -5,12 +5,17 @@
 #include <set>
 #include <string_view>
 
+#include "collision_core/numeric/rounding.h"
+#include "collision_core/shape/grown_shape.h"
 #include "idl/identity.h"
 #include "idl/limits.h"
 #include "idl/shape_bytes.h"
 #include "server/codec/field_check.h"
 
 namespace collision::server {
+
+static_assert(wire::kMarginMin == shape::kMarginMin);
+
 namespace {
 
 Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -74,6 +79,32 @@ void TakeDirection(const v1::AgentState& wire, FieldCheck* check, motion::Motion
   state->direction_until = Instant::FromNanoseconds(wire.direction_until_ns());
 }
 
+/// Each list by itself, and that they do not contradict each other.
+void CheckPartners(const v1::AgentDescription& wire, FieldCheck* check) {
+  check->Text("assembly", wire.assembly(), wire::kNameMax);
+  const auto check_list = [&](const char* field, const auto& names) {
+    check->Integer(field, names.size(), 0, wire::kPartnersListedMax);
+    for (const std::string& name : names) {
+      check->Text(field, name, wire::kNameMax);
+      if (name.empty()) {
+        check->Refuse(v1::REJECTED_OUT_OF_RANGE, field, "an empty name; allowed: names of agents");
+      } else if (name == wire.agent_name()) {
+        check->Refuse(v1::REJECTED_OUT_OF_RANGE, field,
+                      "\"" + name + "\", the agent itself; allowed: other agents");
+      }
+    }
+  };
+  check_list("meets_in_assembly", wire.meets_in_assembly());
+  check_list("never_meets", wire.never_meets());
+  if (!check->passed()) return;
+  for (const std::string& name : wire.never_meets()) {
+    if (std::ranges::count(wire.meets_in_assembly(), name) == 0) continue;
+    check->Refuse(
+        v1::REJECTED_OUT_OF_RANGE, "never_meets",
+        "\"" + name + "\", which meets_in_assembly names too; allowed: in one of the two");
+  }
+}
+
 void CheckStamp(std::int64_t stamp_ns, const StampRules& rules, FieldCheck* check) {
   check->Integer("stamp_ns", stamp_ns, -wire::kInstantMax, rules.latest.nanoseconds(),
                  v1::REJECTED_FUTURE_STAMP);
@@ -111,7 +142,8 @@ void CheckTags(const v1::AgentDescription& wire, FieldCheck* check) {
 
 }  // namespace
 
-Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire) {
+Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire,
+                                                       const AgentClasses& classes) {
   FieldCheck check(At(wire));
   check.Integer("slot", wire.slot(), 0, wire::kSlotMax);
   check.Text("agent_name", wire.agent_name(), wire::kNameMax);
@@ -123,6 +155,21 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
                -wire::kAccelerationMax, wire::kAccelerationMax);
   check.Number("speed_max_m_s", wire.speed_max_m_s(), 0, wire::kSpeedMax);
   check.Number("time_step_s", wire.time_step_s(), 0, wire::kTimeStepMax);
+  check.Number("margin_m", wire.margin_m(), 0, wire::kRadiusMax);
+  if (wire.margin_m() > 0 && wire.margin_m() < wire::kMarginMin) {
+    check.Refuse(v1::REJECTED_OUT_OF_RANGE, "margin_m",
+                 Show(wire.margin_m()) + "; allowed: 0, or " + Show(wire::kMarginMin) + " to " +
+                     Show(wire::kRadiusMax));
+  }
+  CheckPartners(wire, &check);
+  const auto filter = classes.FilterOf(wire.class_name());
+  if (!filter) {
+    check.Text("class_name", wire.class_name(), wire::kClassNameMax);
+    check.Refuse(v1::REJECTED_OUT_OF_RANGE, "class_name",
+                 "\"" + wire.class_name() +
+                     "\"; allowed: the classes of the service's configuration: " + classes.Names() +
+                     "; or none");
+  }
   const std::string hash = ShapeHashOf(wire);
   if (!hash.empty() && hash.size() != kShapeHashBytes) {
     check.Refuse(
@@ -131,13 +178,15 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
   }
   if (!check.passed()) return *check.refusal();
   const double alpha = wire.angular_acceleration_max_rad_s2();
-  const double cap = wire.speed_max_m_s();
-  return detection::AgentDeclaration{.limits = {.radius = wire.radius_m(),
+  const double cap = wire.speed_max_m_s(), margin = wire.margin_m();
+  const double radius = margin > 0 ? numeric::AddUp(wire.radius_m(), margin) : wire.radius_m();
+  return detection::AgentDeclaration{.limits = {.radius = radius,
                                                 .acceleration_max = wire.acceleration_max_m_s2(),
                                                 .time_step = wire.time_step_s(),
                                                 .speed_max = cap > 0 ? cap : numeric::kInfinity,
                                                 .angular_acceleration_max = alpha < 0 ? -1 : alpha},
-                                     .filter = {.group = wire.group(), .mask = wire.mask()},
+                                     .filter = *filter,
+                                     .margin = wire.margin_m(),
                                      .shape_awaited = !hash.empty()};
 }
 

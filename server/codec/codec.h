@@ -12,6 +12,9 @@
 //   quaternion                    length 1 within 1e-3; is normalised       ZERO_QUATERNION,
 //                                                                           NOT_UNIT
 //   thrust direction              zero, or length 1 within 1e-3             NOT_UNIT
+//   margin                        0, or 1e-6 m to a radius                  OUT_OF_RANGE
+//   class                         one of the configuration, or none         OUT_OF_RANGE
+//   lists of partners             16 names; not itself, none in both        OUT_OF_RANGE
 //   simulator id                  the hash of the name                      ID_MISMATCH
 //   stamp                         simulated clock: the time granted;        FUTURE_STAMP
 //                                 before the first grant now, or its first
@@ -42,6 +45,7 @@
 #include "collision_core/detection/agents/agent_declaration.h"
 #include "idl/limits.h"
 #include "idl/messages.pb.h"
+#include "server/codec/agent_classes.h"
 #include "server/codec/refusal.h"
 
 namespace collision::server {
@@ -55,10 +59,12 @@ using Decoded = std::variant<Value, Refusal>;
 std::optional<Refusal> CheckIdentity(const v1::AgentDescription& description);
 std::optional<Refusal> CheckIdentity(const v1::SimulatorClock& clock);
 
-/// The declaration of an agent. A speed cap of 0 is none: a recording from before the field says
-/// nothing about speed. A description with a shape hash awaits its shape: only the intake knows
-/// which shapes are there.
-Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescription& description);
+/// The declaration of an agent, but for what its names mean (intake/partner_names.h): assembly,
+/// name and lists of its filter are empty. A speed cap of 0 is none: a recording from before the
+/// field says nothing about speed. A description with a shape hash awaits its shape: only the
+/// intake knows which shapes are there.
+Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescription& description,
+                                                       const AgentClasses& classes = {});
 
 /// What the agent is called, as events carry it.
 v1::AgentLabel LabelOf(const v1::AgentDescription& description);

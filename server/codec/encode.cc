@@ -49,6 +49,7 @@ v1::CollisionEvent Encode(const detection::CollisionEvent& event) {
   *wire.mutable_end() = Encode(event.end);
   wire.set_continuous(event.continuous);
   wire.set_began_before(event.began_before);
+  wire.set_margin_m(event.margin);
   wire.set_evaluated_at_ns(event.evaluated_at.nanoseconds());
   wire.mutable_separation_m()->set_lower(event.separation_lower);
   wire.mutable_separation_m()->set_upper(event.separation_upper);

@@ -5,35 +5,32 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <system_error>
 
+#include "server/config/config_blocks.h"
 #include "server/config/config_options.h"
 #include "server/config/config_text.h"
 #include "server/config/limit_blocks.h"
+#include "server/config/partner_blocks.h"
 
 namespace collision::server {
 namespace {
 
 using google::protobuf::TextFormat;
 
-/// Before the number of a block of `limits`, in the name of a field with an error.
-constexpr std::string_view kLimitsPath = "limits[";
-
 /// Where a field stands in the text; line -1: it is not there.
 TextPlace PlaceOf(TextFormat::ParseInfoTree* tree, const std::string& path) {
   const google::protobuf::Descriptor* type = v1::Config::descriptor();
   const std::size_t dot = path.find('.');
-  if (path.starts_with(kLimitsPath)) {
-    const auto* limits = type->FindFieldByName("limits");
-    const int block = std::atoi(path.c_str() + kLimitsPath.size());
-    const auto whole = tree->GetLocation(limits, block);
+  if (const auto block = FindBlock(path)) {
+    const auto whole = tree->GetLocation(block->field, block->block);
     if (dot == path.npos) return {whole.line, whole.column};
-    const auto place =
-        tree->GetTreeForNested(limits, block)
-            ->GetLocation(limits->message_type()->FindFieldByName(path.substr(dot + 1)), -1);
+    // Of a list within the block, its first entry.
+    const auto* field = block->field->message_type()->FindFieldByName(path.substr(dot + 1));
+    const auto place = tree->GetTreeForNested(block->field, block->block)
+                           ->GetLocation(field, field->is_repeated() ? 0 : -1);
     if (place.line < 0) return {whole.line, whole.column};
     return {place.line, place.column};
   }
@@ -146,6 +143,7 @@ std::vector<ConfigError> CheckConfig(const v1::Config& complete) {
   }
   CheckAgainst(complete, &errors);
   CheckLimitBlocks(complete, &errors);
+  CheckPartnerBlocks(complete, &errors);
   return errors;
 }
 

@@ -44,6 +44,12 @@ std::uint64_t ConfigurationDigest(const v1::Config& complete) {
   for (const v1::SimulatorLimits& block : complete.limits()) {
     text.append("limits: ").append(block.ShortDebugString()).append("\n");
   }
+  for (const v1::AgentClass& block : complete.classes()) {
+    text.append("classes: ").append(block.ShortDebugString()).append("\n");
+  }
+  for (const v1::ExcludedPair& block : complete.excluded()) {
+    text.append("excluded: ").append(block.ShortDebugString()).append("\n");
+  }
   const std::uint64_t digest = Fnv1a(text);
   return digest != 0 ? digest : 1;
 }

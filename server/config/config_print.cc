@@ -30,6 +30,24 @@ constexpr std::string_view kLimitsFacts =
     "Unit: that of the limit; of guaranteed none. Range: from 1 to the limit of the world; of "
     "guaranteed 0 to 1; at most 64 blocks. Default: no block.";
 
+constexpr std::string_view kClassesMeaning =
+    "Which agents can meet at all, by the classes that their descriptions name: classes { name: "
+    "\"robot\" meets: \"robot\" meets: \"person\" }, as often as needed. Two classes meet if "
+    "either of "
+    "them lists the other; one that lists none meets those that list it. An agent that names no "
+    "class meets all. A description with a class that is not here is refused.";
+
+constexpr std::string_view kClassesFacts =
+    "Unit: none. Range: names of 1 to 32 of A-Z a-z 0-9 _ -; at most 31 blocks. Default: no block.";
+
+constexpr std::string_view kExcludedMeaning =
+    "Pairs of agents, of one simulator or of two, that never meet: excluded { first: "
+    "\"cell/table\" second: \"arm/base\" }, as often as needed. Each is named as simulator/agent, "
+    "and need not be there.";
+
+constexpr std::string_view kExcludedFacts =
+    "Unit: none. Range: two different agents; at most 4096 blocks. Default: no block.";
+
 /// As a comment, broken between words.
 void PrintComment(std::string_view text, const std::string& indent, std::ostream& out) {
   std::istringstream words{std::string(text)};
@@ -59,6 +77,22 @@ void PrintOption(const v1::Config& config, const ConfigOption& option, const std
   out << indent << name << ": " << ValueText(config, option) << '\n';
 }
 
+template <typename Blocks>
+void PrintBlocks(const char* name, std::string_view meaning, std::string_view facts,
+                 const Blocks& blocks, std::ostream& out) {
+  out << '\n';
+  PrintComment(meaning, "", out);
+  PrintComment(facts, "", out);
+  for (const auto& block : blocks) {
+    std::string text;
+    google::protobuf::TextFormat::PrintToString(block, &text);
+    std::istringstream lines(text);
+    out << name << " {\n";
+    for (std::string line; std::getline(lines, line);) out << "  " << line << '\n';
+    out << "}\n";
+  }
+}
+
 }  // namespace
 
 std::string PrintConfig(const v1::Config& complete) {
@@ -73,17 +107,9 @@ std::string PrintConfig(const v1::Config& complete) {
     in_clock = of_clock;
     PrintOption(complete, option, of_clock ? "  " : "", out);
   }
-  out << '\n';
-  PrintComment(kLimitsMeaning, "", out);
-  PrintComment(kLimitsFacts, "", out);
-  for (const v1::SimulatorLimits& block : complete.limits()) {
-    std::string text;
-    google::protobuf::TextFormat::PrintToString(block, &text);
-    std::istringstream lines(text);
-    out << "limits {\n";
-    for (std::string line; std::getline(lines, line);) out << "  " << line << '\n';
-    out << "}\n";
-  }
+  PrintBlocks("limits", kLimitsMeaning, kLimitsFacts, complete.limits(), out);
+  PrintBlocks("classes", kClassesMeaning, kClassesFacts, complete.classes(), out);
+  PrintBlocks("excluded", kExcludedMeaning, kExcludedFacts, complete.excluded(), out);
   return out.str();
 }
 

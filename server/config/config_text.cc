@@ -8,8 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "server/config/config_blocks.h"
 #include "server/config/config_options.h"
 #include "server/config/limit_blocks.h"
+#include "server/config/partner_blocks.h"
 
 namespace collision::server {
 namespace {
@@ -19,8 +21,6 @@ using google::protobuf::io::Tokenizer;
 
 /// More errors than a hand-written file has; a file of another kind stops here.
 constexpr int kErrorsMax = 100;
-
-constexpr std::string_view kLimits = "limits";
 
 class Unheard final : public google::protobuf::io::ErrorCollector {
   void AddError(int, google::protobuf::io::ColumnNumber, const std::string&) override {}
@@ -85,10 +85,10 @@ std::optional<std::size_t> Tokens::FieldBefore(const TextPlace& place) const {
 std::string Tokens::PathOf(std::size_t field) const {
   std::vector<std::string> around;
   std::string last;
-  int blocks = 0;  // Of `limits`.
+  std::map<std::string, int> blocks;
   for (std::size_t token = 0; token < field; ++token) {
     if (IsName(token)) last = tokens_[token].text;
-    if (IsName(token) && around.empty() && last == kLimits) last = LimitBlockPath(blocks++);
+    if (IsName(token) && around.empty() && IsBlock(last)) last = BlockPath(last, blocks[last]++);
     if (Opens(token)) around.push_back(last);
     if (Closes(token) && !around.empty()) around.pop_back();
   }
@@ -143,8 +143,10 @@ std::string Explain(const std::string& path, const std::string& message) {
   }
   const std::string leaf = path.substr(path.rfind('.') + 1);
   const std::string error = path + ": " + Legible(message);
-  if (path.starts_with(kLimits) && leaf != path) {
-    return error + "; allowed: " + AllowedInLimitBlock(leaf);
+  if (const auto block = FindBlock(path); block && leaf != path) {
+    const bool limits = block->field->name() == "limits";
+    return error + "; allowed: " +
+           (limits ? AllowedInLimitBlock(leaf) : AllowedInPartnerBlock(*block, leaf));
   }
   const ConfigOption* meant = FindConfigOption(leaf);
   return error + (meant == nullptr ? "" : "; meant is " + std::string(meant->path) + "?");

@@ -7,12 +7,14 @@
 #include <cstdlib>
 
 #include "idl/limits.h"
+#include "server/config/config_blocks.h"
 
 namespace collision::server {
 namespace {
 
 using google::protobuf::FieldDescriptor;
 
+constexpr std::string_view kLimits = "limits";
 constexpr const char* kAllowedName = "1 to 64 of A-Z a-z 0-9 _ - *";
 constexpr const char* kAllowedPart = "0 to 1";
 
@@ -46,7 +48,7 @@ class BlocksCheck {
 
   void Refuse(const std::string& field, const std::string& allowed) {
     const FieldDescriptor* at = v1::SimulatorLimits::descriptor()->FindFieldByName(field);
-    errors_->push_back({LimitBlockPath(block_) + "." + field,
+    errors_->push_back({BlockPath(kLimits, block_) + "." + field,
                         TextOf(block(), at) + " is not allowed; allowed: " + allowed});
   }
 
@@ -55,7 +57,7 @@ class BlocksCheck {
     for (int before = 0; before < block_; ++before) {
       const std::string& name = config_.limits(before).name();
       if (!FitsPattern(block().name(), name)) continue;
-      return Refuse("name", "a name that " + LimitBlockPath(before) + " (\"" + name +
+      return Refuse("name", "a name that " + BlockPath(kLimits, before) + " (\"" + name +
                                 "\") does not fit: the first block that fits counts");
     }
     if (IsPattern(block().name()) || ++names_ <= config_.simulators_max()) return;
@@ -98,8 +100,6 @@ class BlocksCheck {
 
 }  // namespace
 
-std::string LimitBlockPath(int block) { return "limits[" + std::to_string(block) + "]"; }
-
 bool FitsPattern(const std::string& name, const std::string& pattern) {
   // fits[i]: the pattern so far fits the first i characters. A * in the name, which no other
   // character fits, stands for what the name may have there.
@@ -123,17 +123,13 @@ std::string AllowedInLimitBlock(std::string_view field) {
   if (type->FindFieldByName(std::string(field)) != nullptr) {
     return "1 to " + std::string(field) + " of the world";
   }
-  std::string names;
-  for (int i = 0; i < type->field_count(); ++i) {
-    names += (i > 0 ? ", " : "") + type->field(i)->name();
-  }
-  return names;
+  return FieldNames(*type);
 }
 
 void CheckLimitBlocks(const v1::Config& complete, std::vector<ConfigError>* errors) {
   const int blocks = complete.limits_size();
   if (blocks > kLimitBlocksMax) {
-    errors->push_back({LimitBlockPath(kLimitBlocksMax),
+    errors->push_back({BlockPath(kLimits, kLimitBlocksMax),
                        std::to_string(blocks) + " blocks are not allowed; allowed: at most " +
                            std::to_string(kLimitBlocksMax)});
   }

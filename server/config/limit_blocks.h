@@ -13,9 +13,6 @@ namespace collision::server {
 /// Blocks of one configuration.
 inline constexpr int kLimitBlocksMax = 64;
 
-/// "limits[2]", the path of a block in errors; the first one is limits[0].
-std::string LimitBlockPath(int block);
-
 /// Whether the name fits the pattern, in which `*` stands for any characters. Of two patterns:
 /// whether each name that fits the first one fits the second one too.
 bool FitsPattern(const std::string& name, const std::string& pattern);

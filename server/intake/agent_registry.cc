@@ -17,6 +17,7 @@ AgentRegistry::AgentRegistry(const v1::Config& config, World* world, detection::
       detector_(*detector),
       rejections_(*rejections),
       shapes_(*shapes),
+      names_(config),
       undescribed_(ToNanoseconds(config.undescribed_after_s())) {}
 
 void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& wire,
@@ -33,13 +34,15 @@ void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& w
 }
 
 void AgentRegistry::Introduce(Simulator* simulator, const v1::AgentDescription& wire,
-                              const detection::AgentDeclaration& declaration) {
+                              detection::AgentDeclaration declaration) {
   AgentTable& agents = simulator->agents();
   const std::uint32_t slot = wire.slot();
   if (agents.HasEnded(slot, wire.generation())) return;
   if (agents.Find(slot, wire.generation())) return Revise(simulator, wire, declaration);
   if (Agent* former = agents.Find(slot)) RemoveAgent(simulator, slot, former);
+  std::shared_ptr<const void> names = names_.Complete(wire, &declaration.filter);
   Agent* agent = agents.Add(slot, {wire.generation(), wire.revision(), declaration});
+  agent->names = std::move(names);
   simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, slot);
   simulator->refusals().Accept(v1::TOPIC_AGENT_STATES, slot);
   agent->description_sequence = wire.sequence();
@@ -49,10 +52,11 @@ void AgentRegistry::Introduce(Simulator* simulator, const v1::AgentDescription& 
 }
 
 void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wire,
-                           const detection::AgentDeclaration& declaration) {
+                           detection::AgentDeclaration declaration) {
   Agent* agent = simulator->agents().Find(wire.slot());
   if (wire.revision() <= agent->revision()) return;
   if (!world_.RunsInRounds()) KeepFormer(wire, agent);
+  agent->names = names_.Complete(wire, &declaration.filter);
   simulator->agents().Revise(wire.slot(), wire.revision(), declaration);
   simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, wire.slot());
   agent->description_sequence = wire.sequence();

@@ -8,6 +8,7 @@
 #include "collision_core/detection/detector.h"
 #include "server/intake/agent_shapes.h"
 #include "server/intake/overdue_queue.h"
+#include "server/intake/partner_names.h"
 #include "server/world/rejections.h"
 #include "server/world/world.h"
 
@@ -43,7 +44,8 @@ class AgentRegistry {
   AgentRegistry(const v1::Config& config, World* world, detection::Detector* detector,
                 Rejections* rejections, AgentShapes* shapes);
 
-  /// Takes a description from the owner of its simulator.
+  /// Takes a description from the owner of its simulator; `declaration`: as decoded, without the
+  /// numbers of names.
   void Describe(Simulator* simulator, const v1::AgentDescription& wire,
                 const detection::AgentDeclaration& declaration);
 
@@ -87,9 +89,9 @@ class AgentRegistry {
   };
 
   void Introduce(Simulator* simulator, const v1::AgentDescription& wire,
-                 const detection::AgentDeclaration& declaration);
+                 detection::AgentDeclaration declaration);
   void Revise(Simulator* simulator, const v1::AgentDescription& wire,
-              const detection::AgentDeclaration& declaration);
+              detection::AgentDeclaration declaration);
   /// Before the description becomes `agent`'s: what it replaces holds for states on their way.
   static void KeepFormer(const v1::AgentDescription& wire, Agent* agent);
   bool IsDescribed(const Simulator& simulator, std::uint32_t slot, std::uint32_t generation) const;
@@ -119,6 +121,7 @@ class AgentRegistry {
   AgentShapes& shapes_;
   /// By simulator and slot: each slot of which anything has been told since it last took effect.
   std::map<std::uint64_t, std::map<std::uint32_t, Told>> told_;
+  PartnerNames names_;
   OverdueQueue<detection::AgentId> undescribed_;
   AgentCounters counters_;
 };

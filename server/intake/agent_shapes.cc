@@ -48,6 +48,7 @@ AgentShapes::AgentShapes(const v1::Config& config, World* world, detection::Dete
       detector_(*detector),
       rejections_(*rejections),
       store_(*store),
+      grown_(config.tree_bytes_max(), &world->quotas()),
       awaited_(ToNanoseconds(config.undescribed_after_s())),
       wait_(ToNanoseconds(config.clock().shape_wait_max_s())) {}
 
@@ -60,7 +61,7 @@ void AgentShapes::Refer(Simulator* simulator, std::uint32_t slot, const std::str
     store_.RemoveUser(before, user);
     if (!store_.HasUsers(before)) wait_.End(before);
   }
-  if (hash.empty()) return;
+  if (hash.empty()) return DropGrown(*simulator, agent);
   if (!store_.HasWantedTree(hash)) wait_.Begin(hash, world_.monotonic_ns());
   Give(*simulator, slot, agent);
   if (before != hash && !store_.ProgressOf(simulator->id(), hash).whole) {
@@ -68,9 +69,34 @@ void AgentShapes::Refer(Simulator* simulator, std::uint32_t slot, const std::str
   }
 }
 
+void AgentShapes::DropGrown(const Simulator& simulator, Agent* agent) {
+  const auto grown = std::exchange(agent->grown, std::nullopt);
+  if (grown) grown_.Drop({simulator.id(), grown->first, grown->second});
+}
+
+// What it used before is dropped last: if it is the same, it stays.
+std::shared_ptr<const shape::Shape> AgentShapes::ShapeOf(const Simulator& simulator,
+                                                         std::uint32_t slot, Agent* agent) {
+  std::shared_ptr<const shape::Shape> shape = store_.Find(agent->shape_hash);
+  const double margin = agent->declaration.margin;
+  if (!shape || margin == 0) {
+    DropGrown(simulator, agent);
+    return shape;
+  }
+  const GrownShapes::Grown grown = grown_.Use({simulator.id(), agent->shape_hash, margin}, shape);
+  DropGrown(simulator, agent);
+  if (const auto* refusal = std::get_if<std::string>(&grown)) {
+    rejections_.Add(ShapeRefusal(simulator.IdOf(slot, agent->generation()),
+                                 v1::TOPIC_AGENT_DESCRIPTION, "margin_m", *refusal));
+    return nullptr;
+  }
+  agent->grown = {agent->shape_hash, margin};
+  return std::get<0>(grown);
+}
+
 void AgentShapes::Give(Simulator& simulator, std::uint32_t slot, Agent* agent) {
   detection::AgentDeclaration& declaration = agent->declaration;
-  std::shared_ptr<const shape::Shape> shape = store_.Find(agent->shape_hash);
+  std::shared_ptr<const shape::Shape> shape = ShapeOf(simulator, slot, agent);
   if (!shape) return;
   const double radius = shape->facts().radius;
   if (radius <= declaration.limits.radius * (1 + wire::kShapeRadiusTolerance)) {

@@ -8,6 +8,7 @@
 #include "collision_core/detection/detector.h"
 #include "server/intake/overdue_queue.h"
 #include "server/intake/shape_wait.h"
+#include "server/shapes/grown_shapes.h"
 #include "server/shapes/shape_store.h"
 #include "server/world/rejections.h"
 #include "server/world/world.h"
@@ -58,6 +59,11 @@ class AgentShapes {
 
   /// Gives the agent its shape if that is visible and fits.
   void Give(Simulator& simulator, std::uint32_t slot, Agent* agent);
+  /// The visible shape of the agent, with its margin; null: there is none. Its owner is told why.
+  std::shared_ptr<const shape::Shape> ShapeOf(const Simulator& simulator, std::uint32_t slot,
+                                              Agent* agent);
+  /// The agent uses no grown shape any more.
+  void DropGrown(const Simulator& simulator, Agent* agent);
   void Await(const detection::AgentId& id, const std::string& hash);
   void ReportMissing(const Awaited& awaited);
   void ReportRefusal(const std::string& hash, const ReadyShape& ready);
@@ -66,6 +72,7 @@ class AgentShapes {
   detection::Detector& detector_;
   Rejections& rejections_;
   ShapeStore& store_;
+  GrownShapes grown_;
   OverdueQueue<Awaited> awaited_;
   ShapeWait wait_;
 };

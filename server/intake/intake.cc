@@ -28,6 +28,7 @@ Intake::Intake(const v1::Config& config, std::uint64_t instance, World* world,
       detector_(*detector),
       rejections_(*rejections),
       shapes_(*shapes),
+      classes_(config),
       agent_shapes_(config, world, detector, rejections, shapes),
       agents_(config, world, detector, rejections, &agent_shapes_),
       sender_clocks_(config, world, &agents_),
@@ -185,7 +186,7 @@ void Intake::TakeDescription(const v1::Input& input) {
   if (simulator == nullptr) return;
   simulator->time().RecordDescriptions(wire.sequence());
   if (input.quarantined()) return rejections_.Add(Quarantined(At(wire)));
-  const Decoded<detection::AgentDeclaration> decoded = DecodeDescription(wire);
+  const Decoded<detection::AgentDeclaration> decoded = DecodeDescription(wire, classes_);
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) return rejections_.Add(*refusal);
   agents_.Describe(simulator, wire, std::get<detection::AgentDeclaration>(decoded));
 }

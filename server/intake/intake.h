@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "collision_core/detection/detector.h"
+#include "server/codec/agent_classes.h"
 #include "server/intake/agent_registry.h"
 #include "server/intake/agent_shapes.h"
 #include "server/intake/sender_clocks.h"
@@ -136,6 +137,7 @@ class Intake {
   detection::Detector& detector_;
   Rejections& rejections_;
   ShapeStore& shapes_;
+  const AgentClasses classes_;
   AgentShapes agent_shapes_;
   AgentRegistry agents_;
   SenderClocks sender_clocks_;

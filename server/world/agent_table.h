@@ -38,6 +38,9 @@ class Agent {
 
   detection::AgentDeclaration declaration;  ///< With its shape once that is visible.
   std::string shape_hash = {};              ///< Of the shape that it refers to; empty: the ball.
+  std::shared_ptr<const void> names = {};   ///< Keeps the numbers of the filter's names.
+  /// Hash and margin of the grown shape that it uses (shapes/grown_shapes.h).
+  std::optional<std::pair<std::string, double>> grown = {};
   bool room_refused = false;                ///< Its owner got REJECTED_TOO_MANY_AGENTS.
   std::uint64_t description_sequence = 0;   ///< Of the description in force.
   std::shared_ptr<const v1::AgentLabel> label = {};  ///< What it is called there; null: nothing.

@@ -140,8 +140,8 @@ v1::AgentDescription FuzzedDeclaration(const std::string& simulator, FuzzedData*
   if (spoilt & 4) wire.set_angular_acceleration_max_rad_s2(data->Wild(wire::kAccelerationMax));
   if (spoilt & 8) wire.set_speed_max_m_s(data->Wild(wire::kSpeedMax));
   if (spoilt & 16) wire.set_time_step_s(data->Wild(wire::kTimeStepMax));
-  if (spoilt & 32) wire.set_group(static_cast<std::uint32_t>(data->Bits(1)));
-  if (spoilt & 64) wire.set_mask(static_cast<std::uint32_t>(data->Bits(1)));
+  if (spoilt & 32) wire.set_assembly(std::string(data->Bits(1) & 1, 'a'));
+  if (spoilt & 64) wire.add_never_meets(std::string(data->Bits(1) & 65, 'b'));
   if (spoilt & 128) wire.set_shape_hash(Sha256(ShapeBytes(data)));
   if (spoilt & 256) wire.set_run(Small(data));
   if (spoilt & 512) wire.set_generation(Small(data));

@@ -24,6 +24,8 @@ std::size_t BoundOf(const std::string& type, const std::string& name) {
 TEST(Limits, LengthsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("AgentDescription", "simulator_name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("AgentDescription", "agent_name"), wire::kNameMax);
+  EXPECT_EQ(BoundOf("AgentDescription", "class_name"), wire::kClassNameMax);
+  EXPECT_EQ(BoundOf("AgentDescription", "assembly"), wire::kNameMax);
   EXPECT_EQ(BoundOf("SimulatorClock", "simulator_name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("SimulatorStatus", "name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("ServiceStatus", "world"), wire::kNameMax);
@@ -65,6 +67,8 @@ TEST(Limits, CountsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("ServiceHello", "extensions"), count(wire::kHelloExtensionsMax));
   EXPECT_EQ(BoundOf("SimulatorHello", "extensions"), count(wire::kHelloExtensionsMax));
   EXPECT_EQ(BoundOf("Watch", "agents"), count(wire::kWatchAgentsMax));
+  EXPECT_EQ(BoundOf("AgentDescription", "meets_in_assembly"), count(wire::kPartnersListedMax));
+  EXPECT_EQ(BoundOf("AgentDescription", "never_meets"), count(wire::kPartnersListedMax));
   EXPECT_EQ(BoundOf("CollisionEvent", "extensions"), count(wire::kEventExtensionsMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "extensions"), count(wire::kStatusExtensionsMax));
   EXPECT_EQ(BoundOf("SimulatorReport", "refusals"), count(wire::kReportRefusalsMax));

@@ -21,8 +21,8 @@ Scene Losses() {
   return {.name = "losses", .config = ConfigFor(2), .network = Lossy(5), .fill = fill};
 }
 
-/// Speed caps, integrator steps, errors, masks, directions of thrust and expiry, in turns. What is
-/// declared need not be true: a breach has to be the same bits as well.
+/// Speed caps, integrator steps, errors, assemblies, margins, directions of thrust and expiry, in
+/// turns. What is declared need not be true: a breach has to be the same bits as well.
 SimulatedAgent Declaring(int i, std::int64_t end_ns, Random* random) {
   const WanderOptions options{.half_side = 6, .speed = 5, .acceleration_max = 3};
   SimulatedAgent agent{.radius = random->Uniform(0.2, 0.8),
@@ -32,8 +32,8 @@ SimulatedAgent Declaring(int i, std::int64_t end_ns, Random* random) {
   agent.declare = [i](v1::AgentDescription* wire) {
     if (i % 2 == 0) wire->set_speed_max_m_s(9);
     if (i % 3 == 0) wire->set_time_step_s(0.01);
-    if (i % 5 == 0) wire->set_group(2);
-    if (i % 5 == 1) wire->set_mask(~2u);
+    if (i % 5 <= 1) wire->set_assembly("crew");
+    if (i % 10 == 0) wire->set_margin_m(0.125);
   };
   agent.tell = [i, direction](v1::AgentState* state) {
     if (i % 4 == 0) state->set_velocity_error_m_s(0.05);

@@ -27,8 +27,6 @@ inline v1::AgentDescription Description(const std::string& simulator, std::uint3
   wire.set_radius_m(1);
   wire.set_acceleration_max_m_s2(2);
   wire.set_angular_acceleration_max_rad_s2(-1);
-  wire.set_group(1);
-  wire.set_mask(~0u);
   return wire;
 }
 

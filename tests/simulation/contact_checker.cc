@@ -201,11 +201,19 @@ CheckerResult CheckContacts(const std::vector<const SimulatedSimulator*>& simula
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
       const Body &a = bodies[i], &b = bodies[j];
+      const auto found = stories.find({a.id, b.id});
+      if (options.can_meet && !options.can_meet(a.id, b.id)) {
+        if (found != stories.end()) {
+          result.violations.push_back("slots " + std::to_string(a.id.slot) + " and " +
+                                      std::to_string(b.id.slot) + ": an event of an excluded pair");
+        }
+        continue;
+      }
       const std::int64_t from = std::max(a.agent->from_ns, b.agent->from_ns);
       const std::int64_t to = std::min({a.agent->until_ns, b.agent->until_ns, end_ns});
       const std::vector<BallContact> contacts_true = BallContacts(
-          a.agent->motion, b.agent->motion, a.agent->radius + b.agent->radius, from, to);
-      const auto found = stories.find({a.id, b.id});
+          a.agent->motion, b.agent->motion,
+          a.agent->radius + b.agent->radius + a.agent->margin + b.agent->margin, from, to);
       const auto& known = found == stories.end() ? std::map<std::uint32_t, Story>() : found->second;
       for (const BallContact& contact : contacts_true) {
         if (contact.depth < options.grazing) continue;

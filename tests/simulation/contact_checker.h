@@ -1,6 +1,7 @@
 // The truth against what the service said. Shares no code with the service.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct CheckerOptions {
   /// go either way.
   std::int64_t time_tolerance_ns = 100;
   double grazing = 1e-7;
+  /// Whether two agents can meet at all; of others there is no event. Null: all can.
+  std::function<bool(const detection::AgentId& a, const detection::AgentId& b)> can_meet = {};
 };
 
 struct CheckerResult {

@@ -30,11 +30,10 @@ v1::AgentDescription DescriptionOf(const std::string& simulator, std::uint32_t r
   wire.set_simulator_name(simulator);
   wire.set_agent_name(simulator + "-" + std::to_string(slot));
   wire.set_radius_m(agent.radius);
+  wire.set_margin_m(agent.margin);
   wire.set_acceleration_max_m_s2(agent.acceleration_max);
   wire.set_angular_acceleration_max_rad_s2(agent.shape_bytes.empty() ? -1 : 0);
   if (!agent.shape_bytes.empty()) wire.set_shape_hash(Sha256(agent.shape_bytes));
-  wire.set_group(1);
-  wire.set_mask(~0u);
   if (agent.declare) agent.declare(&wire);
   return wire;
 }

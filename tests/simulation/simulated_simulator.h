@@ -16,6 +16,7 @@ namespace collision::server {
 
 struct SimulatedAgent {
   double radius = 1;
+  double margin = 0;
   double acceleration_max = 0;
   Motion motion;
   double position_error = 0;

@@ -88,7 +88,6 @@ void WriteGarbage(DdsSession* session) {
   description.set_run(1);
   description.set_generation(1);
   description.set_revision(1);
-  description.set_group(1);
   description.set_radius_m(std::numeric_limits<double>::quiet_NaN());
   Write(session, [&](std::uint64_t number) {
     description.set_agent_name("garbage-" + std::to_string(number));
@@ -111,7 +110,6 @@ void WriteShapes(DdsSession* session) {
   description.set_revision(1);
   description.set_sequence(1);
   description.set_radius_m(1);
-  description.set_group(1);
   session->Write(description);
   Write(session, [&](std::uint64_t number) {
     const double size = 1 + 1e-9 * static_cast<double>(number);
@@ -144,7 +142,6 @@ void WriteStream(DdsSession* session) {
   description.set_generation(1);
   description.set_revision(1);
   description.set_radius_m(1);
-  description.set_group(1);
   for (std::uint32_t slot = 0; slot < kAgents; ++slot) {
     description.set_agent_name("streamed-" + std::to_string(slot));
     description.set_slot(slot);

@@ -219,9 +219,9 @@ TEST(SubRooms, DependInOneOrder) {
         "fitted"}},
       // Interfaces of the broad phase come first, and what chooses among its methods last.
       {"broad_phase/",
-       {"agent_bound", "half_space", "agent_bounds", "broad_phase_work", "broad_phase_method",
-        "neighbour_index", "earliest_sweep", "sweeping_index", "filter", "index", "face_sweep",
-        "adaptive_broad_phase"}},
+       {"collision_filter", "agent_bound", "half_space", "agent_bounds", "broad_phase_work",
+        "broad_phase_method", "neighbour_index", "earliest_sweep", "sweeping_index", "filter",
+        "index", "face_sweep", "adaptive_broad_phase"}},
       {"narrow_phase/",
        {"pose", "convex_pair", "sphere_pairs", "separation", "advancement", "penetration",
         "contact"}},

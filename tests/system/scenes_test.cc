@@ -41,6 +41,9 @@ TEST(Scenes, Swarm100SatisfiesTheChecker) { ExpectSceneSucceeds({"swarm-100", "-
 // Convex solids, against each other and against triangles.
 TEST(Scenes, DroneArmsSatisfyTheChecker) { ExpectSceneSucceeds({"drone-arms", "--seconds", "6"}); }
 
+// Assemblies: nothing within a robot, everything between them.
+TEST(Scenes, RobotsSatisfyTheChecker) { ExpectSceneSucceeds({"robots", "--seconds", "3"}); }
+
 // Its fine tree takes longer than any simulator waits: time must begin with the coarse one. The
 // checker takes most of a minute; under a sanitizer, where it takes many, the run is what counts.
 TEST(Scenes, AMillionTrianglesSatisfyTheChecker) {

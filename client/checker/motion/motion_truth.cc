@@ -67,7 +67,7 @@ class LogReader {
   std::vector<AgentMotion> Read() {
     std::string line;
     if (!NextLine(&line) || !IsFormat(line))
-      Fail("the first line is none of \"motion-log 1\", \"motion-log 2\" and \"motion-log 3\"");
+      Fail("the first line is none of \"motion-log 1\" to \"motion-log 4\"");
     while (NextLine(&line)) ReadRecord(line);
     std::vector<AgentMotion> moved;
     for (AgentMotion& motion : motions_) {
@@ -84,7 +84,8 @@ class LogReader {
   }
 
   static bool IsFormat(const std::string& line) {
-    return line == "motion-log 1" || line == "motion-log 2" || line == "motion-log 3";
+    return line == "motion-log 1" || line == "motion-log 2" || line == "motion-log 3" ||
+           line == "motion-log 4";
   }
 
   bool NextLine(std::string* line) {
@@ -118,6 +119,9 @@ class LogReader {
       std::int64_t stamp_ns = 0;
       if (!fields->Whole(&stamp_ns)) Fail("a jump needs an instant");
       motion->jumps_ns.push_back(stamp_ns);
+    } else if (kind == "assembly") {
+      motion->assembly = fields->Word();
+      if (motion->assembly.empty()) Fail("an assembly needs a name");
     } else {
       Fail("unknown record \"" + kind + "\"");
     }

@@ -40,9 +40,15 @@ struct AgentMotion {
   std::vector<std::int64_t> jumps_ns;          ///< Published discontinuities, in order.
   std::shared_ptr<const Mesh> mesh = nullptr;  ///< Null: no triangles.
   std::shared_ptr<const std::vector<Solid>> solids = nullptr;  ///< Null: none. Neither: a ball.
+  std::string assembly = {};                                   ///< Empty: of none.
 
   /// Refers to this motion.
   Body body() const { return {mesh.get(), radius_m, solids.get()}; }
+
+  /// Whether the two are of one assembly of one simulator, so that they never meet.
+  bool IsOfOneAssemblyWith(const AgentMotion& other) const {
+    return !assembly.empty() && assembly == other.assembly && simulator == other.simulator;
+  }
 
   std::int64_t begin_ns() const { return pieces.front().t0_ns; }
   std::int64_t end_ns() const { return pieces.back().t1_ns; }
@@ -53,7 +59,7 @@ inline constexpr std::size_t kMeshItemsMax = 20'000'000;  ///< Vertices, and tri
 inline constexpr std::size_t kSolidsMax = 65536;          ///< Of one shape.
 inline constexpr double kRotationAngleMax = 1000;         ///< Within one piece [rad].
 
-/// Reads one motion log of format 1 to 3 (client/checker/README.md). Agents without pieces are left
+/// Reads one motion log of format 1 to 4 (client/checker/README.md). Agents without pieces are left
 /// out. Throws std::runtime_error, "simulator:line: cause", if it is malformed.
 std::vector<AgentMotion> ReadMotionLog(std::istream& text, const std::string& simulator);
 

@@ -106,6 +106,7 @@ class ContactFinder {
         const Slice& b = slices[j];
         if (b.box.lower[0] > a.box.upper[0]) break;
         if (!Overlap(a.box, b.box)) continue;
+        if (motions_[a.agent].IsOfOneAssemblyWith(motions_[b.agent])) continue;
         if (a.agent < b.agent) {
           SearchPair(a, b, s0, s1);
         } else {

@@ -8,8 +8,9 @@
 
 namespace collision::checker {
 
-/// All contacts in order of begin. Boxes swept over slabs of time leave the near pairs to the root
-/// finder, which leaves the spans in which balls overlap to the triangles.
+/// All contacts of agents that can meet, in order of begin. Boxes swept over slabs of time leave
+/// the near pairs to the root finder, which leaves the spans in which balls overlap to the
+/// triangles.
 std::vector<TrueContact> TrueContacts(const std::vector<AgentMotion>& motions);
 
 }  // namespace collision::checker

@@ -49,13 +49,15 @@ v1::AgentDescription ToMessage(const AgentDescription& description) {
   v1::AgentDescription message;
   message.set_agent_name(description.name);
   message.set_radius_m(description.radius_m);
+  message.set_margin_m(description.margin_m);
   message.set_acceleration_max_m_s2(description.acceleration_max_m_s2);
   message.set_angular_acceleration_max_rad_s2(description.angular_acceleration_max_rad_s2);
   message.set_speed_max_m_s(description.speed_max_m_s);
   message.set_time_step_s(description.time_step_s);
-  message.set_group(description.group);
-  message.set_mask(description.mask);
+  message.set_class_name(description.class_name);
   message.set_assembly(description.assembly);
+  for (const std::string& name : description.meets_in_assembly) message.add_meets_in_assembly(name);
+  for (const std::string& name : description.never_meets) message.add_never_meets(name);
   for (const Tag& tag : description.tags) {
     v1::Tag& added = *message.add_tags();
     added.set_key(tag.key);
@@ -115,13 +117,16 @@ DescribedAgent FromMessage(const v1::AgentDescription& message) {
   agent.revision = message.revision();
   agent.description.name = message.agent_name();
   agent.description.radius_m = message.radius_m();
+  agent.description.margin_m = message.margin_m();
   agent.description.acceleration_max_m_s2 = message.acceleration_max_m_s2();
   agent.description.angular_acceleration_max_rad_s2 = message.angular_acceleration_max_rad_s2();
   agent.description.speed_max_m_s = message.speed_max_m_s();
   agent.description.time_step_s = message.time_step_s();
-  agent.description.group = message.group();
-  agent.description.mask = message.mask();
+  agent.description.class_name = message.class_name();
   agent.description.assembly = message.assembly();
+  agent.description.meets_in_assembly.assign(message.meets_in_assembly().begin(),
+                                             message.meets_in_assembly().end());
+  agent.description.never_meets.assign(message.never_meets().begin(), message.never_meets().end());
   agent.description.tags = TagsOf(message.tags());
   agent.shape_hash = message.shape_hash();
   return agent;
@@ -147,6 +152,7 @@ Event FromMessage(const v1::CollisionEvent& message) {
   event.end = BracketOf(message.end());
   event.continuous = message.continuous();
   event.began_before = message.began_before();
+  event.margin_m = message.margin_m();
   if (message.has_separation_m()) event.evaluated_at_ns = message.evaluated_at_ns();
   event.separation_lower_m = message.separation_m().lower();
   event.separation_upper_m = message.separation_m().upper();

@@ -26,21 +26,38 @@ bool IsPlain(const motion::SpaceTimeBound& bound) {
 
 }  // namespace
 
-void HornTable::SetFull(HornRow* row, const motion::SpaceTimeBound& bound) {
+void HornTable::SetFull(HornRow* row, const AgentBound& bound) {
   if (row->full == kPlain) {
     if (free_.empty()) {
+      CORE_CHECK(full_.size() < HornRow::kFullMax, "a row can name its place", full_.size());
       full_.emplace_back();
       free_.push_back(static_cast<std::uint32_t>(full_.size()));
     }
-    row->full = free_.back();
+    row->full = free_.back() & HornRow::kFullMax;
     free_.pop_back();
   }
   full_[row->full - 1] = bound;
 }
 
 void HornTable::DropFull(HornRow* row) {
-  if (row->full != kPlain) free_.push_back(row->full);
+  if (row->full != kPlain) {
+    full_[row->full - 1].filter.partners = nullptr;
+    free_.push_back(row->full);
+  }
   row->full = kPlain;
+}
+
+void HornTable::SetName(std::uint32_t agent, std::uint32_t name) {
+  if (names_.size() <= agent) {
+    if (name == 0) return;
+    names_.resize(agent + 1, 0);
+  }
+  names_[agent] = name;
+}
+
+bool HornTable::ListsLetMeet(std::uint32_t a, std::uint32_t b) const {
+  return broad_phase::ListsLetMeet(ListsOf(a), NameOf(a), ListsOf(b), NameOf(b),
+                                   AreOfOneAssembly(rows_[a].assembly, rows_[b].assembly));
 }
 
 // Fills everything but `ruled` and `full`, which depend on the table.
@@ -57,7 +74,9 @@ void HornTable::Fill(const AgentBound& agent, double half_margin, HornRow* fille
   const double half = 0.5 * limits.acceleration_max;
   ball.s0 = limits.radius, ball.s1 = 0, ball.s2 = half;
   row.stamp = state.stamp;
-  row.filter = agent.filter;
+  row.group = agent.filter.group, row.mask = agent.filter.mask;
+  row.assembly = agent.filter.assembly;
+  row.listing = agent.filter.partners != nullptr;
   if (half_margin != 0 || !IsPlain(bound)) {
     const double skew = bound.skew, step = limits.time_step;
     const double given = limits.radius + half_margin + state.position_error;
@@ -74,7 +93,7 @@ void HornTable::Fill(const AgentBound& agent, double half_margin, HornRow* fille
   row.unfilterable = !(std::max(largest(ball.c), ball.s0) < kPositionMax &&
                        std::max({largest(ball.v), ball.s1, ball.s2}) < kRateMax && Near(row.stamp));
   // A group of no bits meets no agent, and is not the mark of a free row.
-  if (row.filter.group == 0) row.filter = {.group = 1, .mask = 0};
+  if (row.group == 0) row.group = 1, row.mask = 0;
 }
 
 HornRow HornTable::RowOf(const AgentBound& bound) {
@@ -86,21 +105,22 @@ HornRow HornTable::RowOf(const AgentBound& bound) {
 void HornTable::Set(std::uint32_t agent, const AgentBound& bound) {
   if (rows_.size() <= agent) rows_.resize(agent + 1);
   HornRow& row = rows_[agent];
-  count_ += row.filter.group == 0;
+  count_ += row.group == 0;
   still_count_ -= row.still;
   unfilterable_count_ -= row.unfilterable;
-  filtered_count_ -= row.filter.group != 0 && row.filter.mask != ~0u;
+  filtered_count_ -= row.group != 0 && row.filtered();
   row.ruled = rules_ != nullptr && rules_->HasAny(agent);
   const double half_margin = row.ruled ? rules_->HalfMargin(agent) : 0;
-  if (half_margin == 0 && IsPlain(bound.bound)) {
+  if (half_margin == 0 && IsPlain(bound.bound) && !bound.filter.partners) {
     DropFull(&row);
   } else {
-    SetFull(&row, bound.bound);
+    SetFull(&row, bound);
   }
+  SetName(agent, bound.filter.name);
   Fill(bound, half_margin, &row);
   still_count_ += row.still;
   unfilterable_count_ += row.unfilterable;
-  filtered_count_ += row.filter.mask != ~0u;
+  filtered_count_ += row.filtered();
 }
 
 void HornTable::UpdateRules(std::uint32_t agent) {
@@ -111,15 +131,16 @@ void HornTable::Remove(std::uint32_t agent) {
   if (!contains(agent)) return;
   still_count_ -= rows_[agent].still;
   unfilterable_count_ -= rows_[agent].unfilterable;
-  filtered_count_ -= rows_[agent].filter.mask != ~0u;
+  filtered_count_ -= rows_[agent].filtered();
   DropFull(&rows_[agent]);
+  SetName(agent, 0);
   rows_[agent] = HornRow();
   --count_;
 }
 
 motion::SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
   const HornRow& row = rows_[agent];
-  if (row.full != kPlain) return full_[row.full - 1];
+  if (row.full != kPlain) return full_[row.full - 1].bound;
   motion::SpaceTimeBound bound;
   bound.state.stamp = row.stamp;
   bound.state.p_WA = {row.ball.c[0], row.ball.c[1], row.ball.c[2]};
@@ -127,6 +148,12 @@ motion::SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
   bound.limits.radius = row.ball.s0;
   bound.limits.acceleration_max = 2 * row.ball.s2;
   return bound;
+}
+
+CollisionFilter HornTable::filter(std::uint32_t agent) const {
+  const HornRow& row = rows_[agent];
+  if (row.full != kPlain) return full_[row.full - 1].filter;
+  return {.group = row.group, .mask = row.mask, .assembly = row.assembly, .name = NameOf(agent)};
 }
 
 double HornTable::EarlierBound(const HornRow& a, const HornRow& b, Instant from, double limit) {
@@ -138,14 +165,15 @@ void HornTable::Validate() const {
   std::uint32_t count = 0, still = 0, unfilterable = 0, filtered = 0;
   std::vector<bool> taken(full_.size());
   for (const HornRow& row : rows_) {
-    if (row.filter.group == 0) {
+    if (row.group == 0) {
       CORE_CHECK(row.full == kPlain && !row.still && !row.unfilterable, "a free row is empty");
       continue;
     }
     ++count;
     still += row.still;
     unfilterable += row.unfilterable;
-    filtered += row.filter.mask != ~0u;
+    filtered += row.filtered();
+    CORE_CHECK(row.full != kPlain || !row.listing, "lists are kept beside their row");
     if (row.full == kPlain) continue;
     CORE_CHECK(row.full <= full_.size() && !taken[row.full - 1],
                "a bound that is kept whole belongs to one row", row.full, full_.size());

@@ -17,15 +17,25 @@
 namespace collision::broad_phase {
 
 /// A horn in plain doubles, rounded outward: its ball holds from the stamp on, whatever direction,
-/// expiry or speed cap say beyond.
+/// expiry or speed cap say beyond. Of the filter it holds what decides between agents without
+/// lists.
 struct HornRow {
+  static constexpr std::uint32_t kFullMax = (1u << 28) - 1;
+
   numeric::QuickBall ball;  ///< s0 is grown by half of the agent's greatest margin.
   Instant stamp;
-  CollisionFilter filter{0, 0};  ///< Group 0: no such agent.
-  std::uint32_t full = 0;        ///< Where HornTable keeps the whole bound; kPlain: nowhere.
-  bool still = false;            ///< NeverMoves().
-  bool unfilterable = false;     ///< Too large or too far for filters: tested directly.
-  bool ruled = false;            ///< PairRules holds a rule of the agent.
+  std::uint32_t group = 0;  ///< 0: no such agent.
+  std::uint32_t mask = 0;
+  std::uint32_t assembly = 0;
+  /// Where HornTable keeps the whole bound and filter; kPlain: nowhere.
+  std::uint32_t full : 28 = 0;
+  bool still : 1 = false;         ///< NeverMoves().
+  bool unfilterable : 1 = false;  ///< Too large or too far for filters: tested directly.
+  bool ruled : 1 = false;         ///< PairRules holds a rule of the agent.
+  bool listing : 1 = false;       ///< The filter lists single partners.
+
+  /// Whether its filter can keep it apart from others.
+  bool filtered() const { return mask != ~0u || assembly != 0 || listing; }
 };
 static_assert(sizeof(HornRow) == 96, "a row is one and a half lines of the cache");
 
@@ -34,9 +44,10 @@ static_assert(sizeof(HornRow) == 96, "a row is one and a half lines of the cache
 /// their magnitudes: 16 · 2^-53 of them, and as much again.
 inline constexpr double kLineRounding = 0x1p-48;
 
-/// All bounds by index. For an agent that declares no more than radius and acceleration the row of
-/// 96 bytes is everything that is kept: the bound itself is made again from it, bit for bit, for
-/// the few pairs that reach the canonical routine. Other bounds are kept whole beside their rows.
+/// All bounds by index. For an agent that declares no more than radius and acceleration, and lists
+/// no partners, the row of 96 bytes is everything that is kept beside its name: the bound itself is
+/// made again from it, bit for bit, for the few pairs that reach the canonical routine. Other
+/// bounds and filters are kept whole beside their rows.
 class HornTable {
  public:
   /// Grows rows by their agents' margins; null: there are no rules. Requires an empty table.
@@ -59,11 +70,9 @@ class HornTable {
   std::uint32_t count() const { return count_; }
   std::uint32_t still_count() const { return still_count_; }
   std::uint32_t unfilterable_count() const { return unfilterable_count_; }
-  /// Whether some pairs can be excluded: an agent never moves, or has a mask.
+  /// Whether some pairs can be excluded: an agent never moves, or its filter says so.
   bool has_collision_filters() const { return still_count_ + filtered_count_ > 0; }
-  bool contains(std::uint32_t agent) const {
-    return agent < size() && rows_[agent].filter.group != 0;
-  }
+  bool contains(std::uint32_t agent) const { return agent < size() && rows_[agent].group != 0; }
   const HornRow& row(std::uint32_t agent) const { return rows_[agent]; }
   /// Prefetches the row into the cache.
   void Fetch(std::uint32_t agent) const {
@@ -74,7 +83,29 @@ class HornTable {
   static HornRow RowOf(const AgentBound& bound);
   /// The bound as it was set, perhaps without its orientation, on which no intersection depends.
   motion::SpaceTimeBound bound(std::uint32_t agent) const;
-  AgentBound agent_bound(std::uint32_t agent) const { return {bound(agent), rows_[agent].filter}; }
+  CollisionFilter filter(std::uint32_t agent) const;
+  AgentBound agent_bound(std::uint32_t agent) const { return {bound(agent), filter(agent)}; }
+
+  /// Whether the filters let two agents of the table meet.
+  bool FiltersLetMeet(std::uint32_t a, std::uint32_t b) const {
+    const HornRow &of_a = rows_[a], &of_b = rows_[b];
+    if (!GroupsLetMeet(of_a.group, of_a.mask, of_b.group, of_b.mask)) return false;
+    if (of_a.listing || of_b.listing) return ListsLetMeet(a, b);
+    return !AreOfOneAssembly(of_a.assembly, of_b.assembly);
+  }
+  /// The same for an agent of the table and any filter.
+  bool FiltersLetMeet(std::uint32_t agent, const CollisionFilter& other) const {
+    const HornRow& row = rows_[agent];
+    if (!GroupsLetMeet(row.group, row.mask, other.group, other.mask)) return false;
+    const bool apart = AreOfOneAssembly(row.assembly, other.assembly);
+    if (!row.listing && !other.partners) return !apart;
+    return broad_phase::ListsLetMeet(ListsOf(agent), NameOf(agent), other.partners.get(),
+                                     other.name, apart);
+  }
+  /// Whether two agents of the table can meet at all: their filters let them, and one can move.
+  bool CanMeetAtAll(std::uint32_t a, std::uint32_t b) const {
+    return !(rows_[a].still && rows_[b].still) && FiltersLetMeet(a, b);
+  }
 
   /// Walks the table: counts are those of its rows, and places of whole bounds belong to one row
   /// each, or are free. Throws CheckFailure.
@@ -106,13 +137,22 @@ class HornTable {
   static constexpr std::uint32_t kPlain = 0;  ///< HornRow::full: the row says everything.
 
   static void Fill(const AgentBound& agent, double half_margin, HornRow* filled);
-  void SetFull(HornRow* row, const motion::SpaceTimeBound& bound);
+  void SetFull(HornRow* row, const AgentBound& bound);
   void DropFull(HornRow* row);
+  void SetName(std::uint32_t agent, std::uint32_t name);
+  std::uint32_t NameOf(std::uint32_t agent) const {
+    return agent < names_.size() ? names_[agent] : 0;
+  }
+  const PartnerLists* ListsOf(std::uint32_t agent) const {
+    return rows_[agent].listing ? full_[rows_[agent].full - 1].filter.partners.get() : nullptr;
+  }
+  bool ListsLetMeet(std::uint32_t a, std::uint32_t b) const;
 
   const intersection::PairRules* rules_ = nullptr;
-  std::vector<HornRow> rows_;                 ///< By agent.
-  std::vector<motion::SpaceTimeBound> full_;  ///< At HornRow::full − 1.
-  std::vector<std::uint32_t> free_;  ///< Free places of full_, plus one as in HornRow::full.
+  std::vector<HornRow> rows_;         ///< By agent.
+  std::vector<AgentBound> full_;      ///< At HornRow::full − 1.
+  std::vector<std::uint32_t> free_;   ///< Free places of full_, plus one as in HornRow::full.
+  std::vector<std::uint32_t> names_;  ///< Of filters, by agent; as long as there are names.
   std::uint32_t count_ = 0, still_count_ = 0, unfilterable_count_ = 0, filtered_count_ = 0;
 };
 

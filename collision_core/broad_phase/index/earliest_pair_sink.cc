@@ -24,7 +24,7 @@ void EarliestPairSink::Limit(Instant until) {
 
 bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, const Within& within,
              BroadPhaseWork* work) {
-  if (!CanMeet(table.row(a), table.row(b))) return false;
+  if (!table.CanMeetAtAll(a, b)) return false;
   ++work->filter_tests;
   const double bound = table.EarlierBound(a, b, within.from, within.seconds);
   // Infinite: the two never meet, whatever the limit is.
@@ -34,11 +34,13 @@ bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, const Wit
   return may;
 }
 
-bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, const Within& within,
+bool MayMeet(const Guest& guest, const HornTable& table, std::uint32_t agent, const Within& within,
              BroadPhaseWork* work) {
-  if (!CanMeet(row, table.row(agent))) return false;
+  const HornRow& row = table.row(agent);
+  if (guest.row.still && row.still) return false;
+  if (!table.FiltersLetMeet(agent, guest.filter)) return false;
   ++work->filter_tests;
-  const double bound = HornTable::EarlierBound(row, table.row(agent), within.from, within.seconds);
+  const double bound = HornTable::EarlierBound(guest.row, row, within.from, within.seconds);
   const bool may = bound < numeric::kInfinity && kFilterEarliness * bound <= within.seconds;
   work->pair_queries += may;
   return may;
@@ -48,7 +50,7 @@ bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32
              const Within& within, BroadPhaseWork* work) {
   const HornRow& row = table.row(agent);
   const HalfSpace& half_space = entry.half_space;
-  if (!CanMeet(row.filter, half_space.filter) || row.still) return false;
+  if (row.still || !table.FiltersLetMeet(agent, half_space.filter)) return false;
   ++work->filter_tests;
   const intersection::PairRule rule = table.RuleOf(agent, entry.agent);
   const bool may = !rule.excluded &&
@@ -61,7 +63,7 @@ bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
                                                       const HornTable& table, std::uint32_t a,
                                                       std::uint32_t b) {
-  if (!CanMeet(table.row(a).filter, table.row(b).filter)) return {query.from, numeric::kInfinity};
+  if (!table.FiltersLetMeet(a, b)) return {query.from, numeric::kInfinity};
   const intersection::PairRule rule = table.RuleOf(a, b);
   CORE_CHECK(!rule.excluded, "an excluded pair has no time", a, b);
   return EarliestIntersectionOf(query, table.bound(a), table.bound(b), rule.margin);

@@ -50,8 +50,15 @@ bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, const Wit
              BroadPhaseWork* work);
 bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32_t agent,
              const Within& within, BroadPhaseWork* work);
-/// The same for a row that is in no table and has no rules, and an agent of the table.
-bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, const Within& within,
+/// A bound that is in no table and has no rules, with its row. Unchecked: it outlives this.
+struct Guest {
+  explicit Guest(const AgentBound& of) : filter(of.filter), row(HornTable::RowOf(of)) {}
+
+  const CollisionFilter& filter;
+  const HornRow row;
+};
+/// The same for a guest and an agent of the table.
+bool MayMeet(const Guest& guest, const HornTable& table, std::uint32_t agent, const Within& within,
              BroadPhaseWork* work);
 
 /// The canonical time of two agents of the table, with their margin. Requires that they are not
@@ -63,10 +70,5 @@ intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQ
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
                                                       const HalfSpaces::Entry& entry,
                                                       const HornTable& table, std::uint32_t agent);
-
-/// Whether two rows can meet at all: their filters allow it, and one of them can move.
-inline bool CanMeet(const HornRow& a, const HornRow& b) {
-  return CanMeet(a.filter, b.filter) && !(a.still && b.still);
-}
 
 }  // namespace collision::broad_phase

@@ -56,7 +56,7 @@ class NearPairList final : public PairSink {
 
   void Offer(std::uint32_t a, std::uint32_t b) override {
     if (a == b) return;
-    if (table_.has_collision_filters() && !CanMeet(table_.row(a), table_.row(b))) return;
+    if (table_.has_collision_filters() && !table_.CanMeetAtAll(a, b)) return;
     if (table_.RuleOf(a, b).excluded) return;
     pairs_->push_back({std::min(a, b), std::max(a, b)});
   }
@@ -179,19 +179,19 @@ void WindowedSearch::FindNeighbours(const AgentBound& bound, Instant from, Insta
   const BroadPhaseWork before = cost_.work;
   const std::size_t first_new = neighbours->size();
   AppendHalfSpaces(bound, from, until, skip, neighbours);
-  const HornRow row = HornTable::RowOf(bound);
+  const Guest guest(bound);
   const intersection::BroadQuery by_until{intersection::BoundKind::kHorn, from, until};
   const double limit = EarliestPairSink(table_, by_until, &cost_.work).limit();
   near_.clear();
-  if (row.unfilterable || frame_.is_unfilterable() || !HornTable::Near(from)) {
+  if (guest.row.unfilterable || frame_.is_unfilterable() || !HornTable::Near(from)) {
     FindAllBut(PlacedBall::kNoAgent);
   } else {
-    FindNear(frame_.Place(row), from, std::min(limit, kWindowMax));
+    FindNear(frame_.Place(guest.row), from, std::min(limit, kWindowMax));
   }
   CountSearch();
   const intersection::BroadQuery from_on{intersection::BoundKind::kHorn, from, Instant::Never()};
   for (const std::uint32_t other : near_) {
-    if (skip(other) || !MayMeet(row, table_, other, {from, limit}, &cost_.work)) continue;
+    if (skip(other) || !MayMeet(guest, table_, other, {from, limit}, &cost_.work)) continue;
     AppendIfBy(until, {other, EarliestIntersectionOf(from_on, bound.bound, table_.bound(other))},
                neighbours);
   }

@@ -13,11 +13,15 @@ class Shape;
 namespace collision::detection {
 
 /// What an owner declares about an agent once, and what then holds from state to state. A change
-/// that promises less (a larger radius or M, another shape, wider masks) is a *widening*: the
+/// that promises less (a larger radius or M, another shape, a filter that keeps
+/// it apart from fewer) is a *widening*: the
 /// detector queries the agent for all partners again.
 struct AgentDeclaration {
   motion::MotionLimits limits{};
   broad_phase::CollisionFilter filter{};
+  /// The agent counts as touching whatever comes within this of it [m], >= 0; of two agents the sum
+  /// counts. `limits.radius` and `shape` contain it already (shape/grown_shape.h); events tell it.
+  double margin = 0;
   /// The shape, within the ball of `limits.radius`; null: the ball itself.
   std::shared_ptr<const shape::Shape> shape = nullptr;
   /// The shape is not known yet: it lies somewhere within the ball. The ball then excludes contacts

@@ -28,11 +28,6 @@ void Reshape(const History::Sample& before, const AgentDeclaration& declaration,
   if (!arrived && (!same || declaration.shape_awaited)) record->shape_redeclared = true;
 }
 
-bool AddsGroups(const broad_phase::CollisionFilter& before,
-                const broad_phase::CollisionFilter& next) {
-  return (next.group & ~before.group) != 0 || (next.mask & ~before.mask) != 0;
-}
-
 }  // namespace
 
 BoundChange ApplyDeclaration(const AgentDeclaration& declaration, AgentRecord* record) {
@@ -50,7 +45,7 @@ BoundChange ApplyDeclaration(const AgentDeclaration& declaration, AgentRecord* r
       limits.radius > old.radius || limits.acceleration_max > old.acceleration_max ||
       limits.speed_max > old.speed_max || limits.time_step > old.time_step ||
       (before.shape && (!SameBody(in_force.shape, before.shape) || spins_faster)) ||
-      AddsGroups(before.filter, in_force.filter);
+      MayMeetMore(before.filter, in_force.filter);
   return widened ? BoundChange::kWidened : BoundChange::kWithin;
 }
 

@@ -8,24 +8,22 @@ namespace collision::detection {
 
 /// One agent of a query, with a bound and a filter that it has, had, or may have.
 struct QueriedAgent {
+  /// Unchecked: bound and filter outlive the query.
   QueriedAgent(AgentIndex of_agent, const motion::SpaceTimeBound& of_bound,
                const broad_phase::CollisionFilter& of_filter)
       : agent(of_agent), bound(of_bound), filter(of_filter) {}
-  /// Unchecked: the bound outlives the query.
   QueriedAgent(AgentIndex of_agent, const broad_phase::AgentBound& of_bound)
       : QueriedAgent(of_agent, of_bound.bound, of_bound.filter) {}
 
   AgentIndex agent;
   const motion::SpaceTimeBound& bound;
-  broad_phase::CollisionFilter filter;
+  const broad_phase::CollisionFilter& filter;
 };
 
 /// The queries of the detector about single pairs.
 ///
 /// What is agreed about a pair besides its bounds enters the detector here and in the neighbour
-/// index (broad_phase/agent_bounds.h). Today that is the filters; exclusions and margins of pairs
-/// are looked up here by the agents' indices once the detector is given PairRules.
-/// `detection/README.md` says what else they need.
+/// index (broad_phase/agent_bounds.h): the filters of the two agents.
 ///
 /// Each earliest intersection that is computed counts as one pair query.
 class PairQueries {

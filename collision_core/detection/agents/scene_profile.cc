@@ -34,7 +34,7 @@ SceneProfile::Features SceneProfile::Of(const History::Sample& newest) {
   set(kUncertain, state.position_error > 0 || state.velocity_error > 0);
   set(kSkewed, bound.skew > 0);
   set(kExpiring, !state.expiry.is_never());
-  set(kMasked, newest.filter != broad_phase::CollisionFilter());
+  set(kMasked, KeepsApart(newest.filter));
   set(kShaped, shaped);
   set(kTurning, shaped && turning);
   set(kMoving, !NeverMoves(bound));
@@ -59,7 +59,7 @@ std::vector<std::string> SceneProfile::LeftOut() const {
   leave_out(counts_[kUncertain] == 0, "growth by state errors: every state is exact");
   leave_out(counts_[kSkewed] == 0, "clock skew: all clocks are one");
   leave_out(counts_[kExpiring] == 0, "expiry: no agent declares one");
-  leave_out(counts_[kMasked] == 0, "masks: every agent can meet every other");
+  leave_out(counts_[kMasked] == 0, "masks, assemblies: every agent can meet every other");
   leave_out(counts_[kShaped] == 0, "sphere trees and rotation: every agent is a ball");
   leave_out(counts_[kShaped] > 0 && counts_[kTurning] == 0,
             "rotation of sphere trees: no agent with a shape turns");

@@ -226,6 +226,7 @@ void Announcer::Open(const Subject& subject, const Opening& opening) {
   event.pair_slot = subject.pair.slot.value();
   event.contact = numbers_.Next(subject.pair.lower_index, subject.pair.higher_index);
   event.revision = 0;
+  event.margin = subject.pair.margin;
   event.begin.earliest = opening.free_until;
   event.began_before = opening.began_before;
   Emit(subject, EventStatus::kPossible);

@@ -16,6 +16,7 @@ struct PairName {
   AgentId lower, higher;
   AgentIndex lower_index, higher_index;
   PairSlot slot;
+  double margin = 0;  ///< As in CollisionEvent.
 };
 
 /// What has been published about a pair.
@@ -50,7 +51,7 @@ enum class Finality {
 /// Why a pair is no longer watched.
 enum class Departure {
   kRemoved,   ///< An agent was removed: a contact has ended by now.
-  kUnwatched  ///< An agent expired, or a mask excludes the pair: the end of a contact is unknown.
+  kUnwatched  ///< An agent expired, or filters keep the two apart: a contact's end is unknown.
 };
 
 /// Whether a pair has to be tracked further.

@@ -17,7 +17,7 @@ enum class EventStatus {
   kConfirmed,  ///< Contact is certified.
   kDismissed,  ///< No contact took place, and the two are far apart again.
   kUndecided,  ///< The interval is over; neither contact nor freedom could be certified in it.
-  kWithdrawn,  ///< An agent was removed or expired, or a mask now excludes the pair; no contact.
+  kWithdrawn,  ///< An agent was removed or expired, or a filter keeps the two apart; no contact.
   kEnded       ///< The contact has ended, or its end is unknown: then end.latest is Never().
 };
 
@@ -49,6 +49,9 @@ struct CollisionEvent {
   bool continuous = true;  ///< Contact is certified without a gap on [begin.latest, end.earliest].
   /// The contact may have begun before one of the two was admitted, jumped or broke its bound.
   bool began_before = false;
+  /// The margins of the two together [m]. With a margin, everything here is about the bodies grown
+  /// by it: a contact begins where the two come within it of each other.
+  double margin = 0;
   /// The instant at which the values below hold, within a nanosecond; Never(): they are not known.
   Instant evaluated_at = Instant::Never();
   double separation_lower = 0;  ///< The distance of the surfaces is at least this [m].

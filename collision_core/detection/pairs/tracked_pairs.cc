@@ -322,8 +322,13 @@ Instant TrackedPairs::RestsUntil(PairSlot slot, const ContactTracker& preview) c
 
 PairName TrackedPairs::NameOf(PairSlot slot) const {
   const PairRecord& pair = table_[slot];
-  return {context_.agents[pair.lower].id, context_.agents[pair.higher].id, pair.lower, pair.higher,
-          slot};
+  const AgentRecord &lower = context_.agents[pair.lower], &higher = context_.agents[pair.higher];
+  return {.lower = lower.id,
+          .higher = higher.id,
+          .lower_index = pair.lower,
+          .higher_index = pair.higher,
+          .slot = slot,
+          .margin = lower.declaration.margin + higher.declaration.margin};
 }
 
 // Both keys cover the pair from now on. False: they cannot, since a state lies beyond what is

@@ -33,8 +33,6 @@ v1::AgentDescription DescriptionOf(std::uint32_t slot) {
   wire.set_radius_m(1);
   wire.set_acceleration_max_m_s2(kAccelerationMax);
   wire.set_angular_acceleration_max_rad_s2(-1);
-  wire.set_group(1);
-  wire.set_mask(1);
   return wire;
 }
 

@@ -30,9 +30,8 @@ constexpr const char* kTetrahedron =
     "mesh m 4 4 1 1 1 1 -1 -1 -1 1 -1 -1 -1 1 0 1 2 0 3 1 0 2 3 1 3 2\n";
 
 TEST(MotionLogReading, MalformedLogsAreReportedWithTheirLine) {
-  EXPECT_EQ(
-      Error("hello\n"),
-      "sim:1: the first line is none of \"motion-log 1\", \"motion-log 2\" and \"motion-log 3\"");
+  EXPECT_EQ(Error("hello\n"),
+            "sim:1: the first line is none of \"motion-log 1\" to \"motion-log 4\"");
   EXPECT_EQ(Error("motion-log 1\npiece a 0 1\n"), "sim:2: agent \"a\" has no agent line before");
   EXPECT_EQ(Error("motion-log 1\nagent a 1\npiece a 0 1 0\n"),
             "sim:3: a piece needs twelve finite coefficients");

@@ -82,6 +82,48 @@ TEST(Validation, DescriptionsAreLimited) {
   CheckLimits<D>(good, "time_step_s", 0, kTimeStepMax, [](D* d, double x) { d->time_step_s = x; });
 }
 
+TEST(Validation, MarginsAreNoneOrNotTooSmall) {
+  for (const double margin : {0.0, 1e-6, kRadiusMax}) {
+    EXPECT_EQ(Complaint(AgentDescription{.name = "ball", .margin_m = margin}), "") << margin;
+  }
+  EXPECT_EQ(Complaint(AgentDescription{.name = "ball", .margin_m = 1e-7}),
+            "margin_m: 1e-07, allowed: 0, or 1e-06 to 1e+12");
+  for (const double margin : {-1e-6, kNaN, kInfinity}) {
+    EXPECT_NE(Complaint(AgentDescription{.name = "ball", .margin_m = margin}), "") << margin;
+  }
+}
+
+TEST(Validation, PartnersAreLimited) {
+  const auto complaint = [](const std::function<void(AgentDescription*)>& set) {
+    AgentDescription description{.name = "link"};
+    set(&description);
+    return Complaint(description);
+  };
+  using D = AgentDescription;
+  EXPECT_EQ(complaint([](D* d) { d->class_name = std::string(33, 'a'); }).rfind("class_name: ", 0),
+            0u);
+  EXPECT_EQ(complaint([](D* d) { d->class_name = "a b"; }),
+            "class_name: \"a b\", allowed: A-Z a-z 0-9 _ -");
+  EXPECT_EQ(complaint([](D* d) { d->assembly = std::string(65, 'a'); }).rfind("assembly: ", 0), 0u);
+  EXPECT_EQ(complaint([](D* d) { d->assembly = "a\n"; }),
+            "assembly: a control character, allowed: printable characters");
+  const std::string others = ", allowed: names of other agents of this simulator";
+  EXPECT_EQ(complaint([](D* d) { d->meets_in_assembly = {"link"}; }),
+            "meets_in_assembly: \"link\"" + others);
+  EXPECT_EQ(complaint([](D* d) { d->never_meets = {""}; }), "never_meets: \"\"" + others);
+  EXPECT_EQ(complaint([](D* d) { d->never_meets.assign(17, "a"); }),
+            "never_meets: 17 names, allowed: at most 16");
+  EXPECT_EQ(complaint([](D* d) { d->never_meets = d->meets_in_assembly = {"a"}; }),
+            "never_meets: \"a\", which meets_in_assembly names too, allowed: in one of the two");
+  EXPECT_EQ(complaint([](D* d) {
+              d->class_name = std::string(32, 'a');
+              d->assembly = std::string(64, 'b');
+              d->meets_in_assembly.assign(16, "c");
+              d->never_meets.assign(16, std::string(64, 'd'));
+            }),
+            "");
+}
+
 TEST(Validation, StatesAreLimited) {
   for (int i = 0; i < 3; ++i) {
     const std::string axis(1, "xyz"[i]);

@@ -10,6 +10,7 @@
 #include "collision_core/broad_phase/index/all_pairs.h"
 #include "collision_core/broad_phase/index/exhaustive_index.h"
 #include "collision_core/broad_phase/index/spatial_index.h"
+#include "tests/collision_core/broad_phase/draw_filter.h"
 #include "tests/support/random.h"
 
 namespace collision::broad_phase {
@@ -223,6 +224,14 @@ inline const NamedScene kMethodScenes[] = {
          agent.filter.mask = static_cast<std::uint32_t>(r->Below(16));
          if (r->Chance(0.5))
            agent.bound.state.expiry = numeric::AddRoundedUp(kMethodStart, r->Uniform(0, 3));
+         return agent;
+       });
+     }},
+    {"assemblies and lists", true,
+     [](Random* r) {
+       return Several(40, 90, r, [&](int) {
+         AgentBound agent = BoundIn(6, 0.5, 5, 2, r);
+         agent.filter = DrawFilter(r);
          return agent;
        });
      }},

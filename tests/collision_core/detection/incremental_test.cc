@@ -11,6 +11,7 @@
 
 #include "collision_core/intersection/earliest_intersection.h"
 #include "collision_core/numeric/seconds.h"
+#include "tests/collision_core/broad_phase/draw_filter.h"
 #include "tests/collision_core/detection/allocations.h"
 #include "tests/collision_core/detection/line.h"
 #include "tests/support/random.h"
@@ -166,8 +167,9 @@ TEST(Incremental, EqualMeetingsGoByTheIds) {
 // Everything that can happen to an agent, at random; with what is known of each, for the oracle.
 class RandomHistory {
  public:
-  RandomHistory(std::uint64_t seed, double box, broad_phase::BroadPhaseMethod method)
-      : random_(seed), box_(box) {
+  RandomHistory(std::uint64_t seed, double box, broad_phase::BroadPhaseMethod method,
+                bool assemblies = false)
+      : random_(seed), box_(box), assemblies_(assemblies) {
     DetectorOptions options;
     options.broad_phase = method;
     detector_.emplace(options);
@@ -262,6 +264,7 @@ class RandomHistory {
     declaration.limits.acceleration_max = random_.Chance(0.3) ? 0 : random_.LogUniform(0.01, 5);
     if (random_.Chance(0.2)) declaration.limits.speed_max = 20;
     if (random_.Chance(0.2)) declaration.filter.mask = 1u << random_.Below(2);
+    if (assemblies_) declaration.filter = broad_phase::DrawFilter(&random_);
     return declaration;
   }
 
@@ -308,6 +311,7 @@ class RandomHistory {
 
   Random random_;
   const double box_;
+  const bool assemblies_;
   std::optional<Detector> detector_;
   std::map<std::uint32_t, broad_phase::AgentBound> known_;
   std::map<std::uint32_t, AgentClearance> clearances_;
@@ -317,7 +321,7 @@ class RandomHistory {
   int compared_ = 0;
 };
 
-TEST(Incremental, LongHistoriesEqualScratchWithEveryMethod) {
+void ExpectHistoriesLikeScratch(bool assemblies) {
   const int steps = kSanitized ? 60 : 600;
   for (const double box : {60, 150, 400}) {
     std::optional<std::vector<std::int64_t>> log;
@@ -325,11 +329,11 @@ TEST(Incremental, LongHistoriesEqualScratchWithEveryMethod) {
          {broad_phase::BroadPhaseMethod::kAllPairs, broad_phase::BroadPhaseMethod::kSpatialIndex,
           broad_phase::BroadPhaseMethod::kExhaustive, broad_phase::BroadPhaseMethod::kAuto}) {
       SCOPED_TRACE(Name(method));
-      RandomHistory history(static_cast<std::uint64_t>(box), box, method);
+      RandomHistory history(static_cast<std::uint64_t>(box), box, method, assemblies);
       for (int step = 0; step < steps; ++step) {
         history.Step(40);
         history.Compare();
-        if (HasFatalFailure()) return;
+        if (testing::Test::HasFatalFailure()) return;
       }
       if (!log) {
         log = history.log();
@@ -342,6 +346,12 @@ TEST(Incremental, LongHistoriesEqualScratchWithEveryMethod) {
       EXPECT_EQ(history.log(), *log);
     }
   }
+}
+
+TEST(Incremental, LongHistoriesEqualScratchWithEveryMethod) { ExpectHistoriesLikeScratch(false); }
+
+TEST(Incremental, LongHistoriesWithAssembliesAndListsEqualScratchWithEveryMethod) {
+  ExpectHistoriesLikeScratch(true);
 }
 
 // An agent whose owner was granted more time has jumped away in the future; before that it crosses

@@ -104,8 +104,6 @@ class Hostile {
         m.set_states_sequence(Count());
         m.set_radius_m(Number());
         m.set_acceleration_max_m_s2(Number());
-        m.set_group(1);
-        m.set_mask(~0u);
         break;
       }
       case 1: {

@@ -127,6 +127,20 @@ TEST(Codec, AcceptsTheLimits) {
             wire::kAccelerationMax);
 }
 
+// Goal:   a margin is part of the radius, rounded up; none leaves it as it is.
+TEST(Codec, AddsTheMarginToTheRadius) {
+  v1::AgentDescription description = Description("a", 1);
+  description.set_radius_m(0.1);
+  const auto plain = std::get<detection::AgentDeclaration>(DecodeDescription(description));
+  EXPECT_EQ(plain.limits.radius, 0.1);
+  EXPECT_EQ(plain.margin, 0);
+  description.set_margin_m(0.7);
+  const auto grown = std::get<detection::AgentDeclaration>(DecodeDescription(description));
+  EXPECT_GE(grown.limits.radius, 0.1 + 0.7);
+  EXPECT_LE(grown.limits.radius, std::nextafter(0.1 + 0.7, 1));
+  EXPECT_EQ(grown.margin, 0.7);
+}
+
 // Goal:   an angular acceleration that is not declared is one number, whatever was sent for it.
 TEST(Codec, TakesTheAngularAcceleration) {
   v1::AgentDescription description = Description("a", 1);
@@ -230,6 +244,23 @@ TEST(Codec, RefusesBadDescriptionsByField) {
       {"time_step_s", far, [](D* d) { d->set_time_step_s(-1e-3); }},
       {"slot", far, [](D* d) { d->set_slot(wire::kSlotMax + 1); }},
       {"agent_name", far, [](D* d) { d->set_agent_name(std::string(65, 'x')); }},
+      {"margin_m", far, [](D* d) { d->set_margin_m(-1e-9); }},
+      {"margin_m", far, [](D* d) { d->set_margin_m(1e-7); }},
+      {"margin_m", odd, [](D* d) { d->set_margin_m(kNaN); }},
+      {"class_name", far, [](D* d) { d->set_class_name("robot"); }},
+      {"assembly", far, [](D* d) { d->set_assembly(std::string(65, 'x')); }},
+      {"meets_in_assembly", far, [](D* d) { d->add_meets_in_assembly(""); }},
+      {"meets_in_assembly", far, [](D* d) { d->add_meets_in_assembly(std::string(65, 'x')); }},
+      {"meets_in_assembly", far,
+       [](D* d) {
+         for (int i = 0; i < 17; ++i) d->add_meets_in_assembly(std::to_string(i));
+       }},
+      {"never_meets", far, [](D* d) { d->add_never_meets(d->agent_name()); }},
+      {"never_meets", far,
+       [](D* d) {
+         d->add_never_meets("x");
+         d->add_meets_in_assembly("x");
+       }},
       {"shape_hash", v1::REJECTED_BAD_SHAPE, [](D* d) { d->set_shape_hash("\x01"); }},
   };
   for (const DescriptionCase& bad : cases) {

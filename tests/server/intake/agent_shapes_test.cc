@@ -128,6 +128,36 @@ TEST_F(AgentShapesTest, AShapeBeyondTheBallIsRefusedAndTheAgentStaysItsBall) {
   EXPECT_TRUE(agent->declaration.shape_awaited);
 }
 
+// Goal: an agent with a margin has its shape grown by it, the same body from description to
+//       description, for as long as it refers to the shape.
+TEST_F(AgentShapesTest, AnAgentWithAMarginHasItsShapeGrownByIt) {
+  Write(parts);
+  MakeReady(hash);
+  Agent* agent = Add(0, 2.5);
+  const auto refer = [&](const std::string& to, double margin) {
+    agent->declaration.margin = margin;
+    agent->declaration.shape = nullptr;
+    agent->declaration.shape_awaited = !to.empty();
+    Refer(0, to);
+    return agent->declaration.shape;
+  };
+  const auto plain_bytes = world.quotas().Used(alpha->id(), Resource::kTreeBytes);
+  const auto grown = refer(hash, 0.5);
+  ASSERT_NE(grown, nullptr);
+  EXPECT_NEAR(grown->facts().radius, store.Find(hash)->facts().radius + 0.5, 1e-12);
+  EXPECT_GT(world.quotas().Used(alpha->id(), Resource::kTreeBytes), plain_bytes);
+  EXPECT_EQ(refer(hash, 0.5), grown) << "described anew";
+  EXPECT_NE(refer(hash, 0.25), grown);
+  EXPECT_EQ(refer(hash, 0), store.Find(hash));
+  EXPECT_EQ(world.quotas().Used(alpha->id(), Resource::kTreeBytes), plain_bytes);
+  refer(hash, 0.5);
+  refer("", 0.5);
+  EXPECT_EQ(agent->grown, std::nullopt);
+  EXPECT_TRUE(TakeFields().empty());
+  EXPECT_EQ(refer(hash, 1), nullptr) << "beyond its ball";
+  EXPECT_EQ(TakeFields(), Fields{"radius_m"});
+}
+
 // The sender's radius may be the corner's, rounded otherwise.
 TEST_F(AgentShapesTest, ABallThatIsTooSmallByRoundingGrowsToItsShape) {
   Write(parts);

@@ -37,7 +37,7 @@ MotionLog::MotionLog(const std::string& path) : path_(path) {
   if (path_.empty()) return;
   file_.open(path_);
   if (!file_) throw std::runtime_error(path_ + ": cannot be created");
-  file_ << "motion-log 3\n";
+  file_ << "motion-log 4\n";
 }
 
 std::string MotionLog::ShapeName(const Shape& shape) {
@@ -83,6 +83,11 @@ void MotionLog::Agent(const std::string& name, double radius_m,
   file_ << "agent " << name;
   Write(radius_m, &file_);
   file_ << suffix << '\n';
+}
+
+void MotionLog::Assembly(const std::string& name, const std::string& assembly) {
+  if (path_.empty() || assembly.empty()) return;
+  file_ << "assembly " << name << ' ' << assembly << '\n';
 }
 
 void MotionLog::Piece(const std::string& name, const MotionPiece& piece) {

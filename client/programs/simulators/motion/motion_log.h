@@ -49,6 +49,9 @@ class MotionLog {
   void Agent(const std::string& name, double radius_m,
              const std::shared_ptr<const Shape>& shape = nullptr);
 
+  /// The agent never meets others of this assembly; empty: it is of none.
+  void Assembly(const std::string& name, const std::string& assembly);
+
   /// Pieces of one agent follow each other in time.
   void Piece(const std::string& name, const MotionPiece& piece);
 

@@ -123,7 +123,7 @@ TEST_F(WorldTest, AnAgentIsDescribedThenPlacedThenCoveredByAClock) {
   EXPECT_EQ(description.agent_name(), "ball");
   EXPECT_EQ(description.radius_m(), 0.5);
   EXPECT_EQ(description.angular_acceleration_max_rad_s2(), -1);
-  EXPECT_EQ(description.mask(), 0xffffffffu);
+  EXPECT_EQ(description.class_name(), "");
 
   const v1::AgentStates& states = network_->written[1].agent_states();
   ASSERT_EQ(states.states_size(), 1);

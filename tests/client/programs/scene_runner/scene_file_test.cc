@@ -67,11 +67,11 @@ TEST_F(SceneFileTest, AnUnknownSceneListsTheNames) {
     LoadScene(folders_, "iridium");
     ADD_FAILURE();
   } catch (const NoSuchScene& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "no scene \"iridium\"; there are: corridor, drone-arms, iridium-cosmos, spaceships, "
-        "spaceships-100, spaceships-500, swarm, swarm-100, swarm-1000, terrain, "
-        "terrain-million");
+    EXPECT_STREQ(error.what(),
+                 "no scene \"iridium\"; there are: corridor, drone-arms, iridium-cosmos, robots, "
+                 "spaceships, "
+                 "spaceships-100, spaceships-500, swarm, swarm-100, swarm-1000, terrain, "
+                 "terrain-million");
   }
 }
 

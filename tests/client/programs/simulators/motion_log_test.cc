@@ -37,12 +37,14 @@ std::shared_ptr<const Shape> Tetrahedron(double size) {
 TEST_F(MotionLogTest, WritesEveryRecord) {
   MotionLog log(path_);
   log.Agent("ball", 0.1);
+  log.Assembly("ball", "balls");
+  log.Assembly("ball", "");
   log.Piece("ball", {5, 7, {{{1, 2, 3, 4}, {0.1, 0, 0, 0}, {-1, 0, 0, 1e300}}}});
   log.Turn("ball", {5, 7, {0, 0, 0, 1}, {0.1, 0, 2}, {0, -0.5, 0}});
   log.Jump("ball", 7);
   log.Close();
   EXPECT_EQ(Lines(),
-            (std::vector<std::string>{"motion-log 3", "agent ball 0.1",
+            (std::vector<std::string>{"motion-log 4", "agent ball 0.1", "assembly ball balls",
                                       "piece ball 5 7 1 2 3 4 0.1 0 0 0 -1 0 0 1e+300",
                                       "turn ball 5 7 0 0 0 1 0.1 0 2 0 -0.5 0", "jump ball 7"}));
 }

@@ -209,8 +209,9 @@ TEST(EarliestSearch, AContactAheadOfNowCountsWithItsBegin) {
 
 // Their balls overlap, but of the cubes the faces meet after 1.5 s.
 TEST(EarliestSearch, APairOfKnownShapesCountsWithItsCertifiedFreedom) {
-  const AgentDeclaration cube{.limits = {.radius = 10, .angular_acceleration_max = 0},
-                              .shape = shape::Shape::Build(Cube(1))};
+  AgentDeclaration cube;
+  cube.limits = {.radius = 10, .angular_acceleration_max = 0};
+  cube.shape = shape::Shape::Build(Cube(1));
   Scene scene;
   scene.Add({0, 0, 0}, {0, 0, 0}, cube);
   scene.Add({3.5, 0, 0}, {-1, 0, 0}, cube);
