@@ -22,6 +22,7 @@ namespace collision::wire {
 inline constexpr double kCoordinateMax = 1e15;    ///< [m] A tenth of a light year.
 inline constexpr double kSpeedMax = 1e9;          ///< [m/s] Three times the speed of light.
 inline constexpr double kAccelerationMax = 1e18;  ///< [m/s²], [rad/s²] Beyond any impact.
+inline constexpr double kJerkMax = 1e18;          ///< [m/s³] Likewise.
 inline constexpr double kRadiusMax = 1e12;  ///< [m] Beyond Jupiter's orbit; also position errors.
 inline constexpr double kAngularSpeedMax = 1e9;  ///< [rad/s]
 inline constexpr double kTimeStepMax = 3600;     ///< [s] The step of a sender's integrator.

@@ -55,9 +55,11 @@ struct AgentDescription {
   /// Whatever comes within this of the agent counts as touching it; of two agents the sum of both
   /// counts. 0, or at least 1e-6.
   double margin_m = 0;
-  /// Never exceeded between two states without a discontinuity. Two agents at rest with 0 cannot
-  /// move: the service tells nothing of the two, even if they overlap.
+  /// |acceleration − acceleration_m_s2| of its states never exceeds this, and `jerk_max_m_s3` for
+  /// each second since the state more, between two states without a discontinuity. Two agents at
+  /// rest with 0 cannot move: the service tells nothing of the two, even if they overlap.
   double acceleration_max_m_s2 = 0;
+  double jerk_max_m_s3 = 0;  ///< 0: what a state tells of the acceleration does not age.
   double angular_acceleration_max_rad_s2 = -1;  ///< < 0: not declared.
   double speed_max_m_s = 0;  ///< Of the reference point, never exceeded; 0: not declared.
   double time_step_s = 0;    ///< Step h of an Euler integrator; 0: the motion is continuous.
@@ -84,12 +86,13 @@ struct State {
   std::int64_t stamp_ns = 0;
   Vector3 position_m{};                ///< Of the reference point.
   Vector3 velocity_m_s{};              ///< Of the reference point.
+  Vector3 acceleration_m_s2{};         ///< As far as its owner knows it; zero: nothing is known.
   Quaternion orientation{1, 0, 0, 0};  ///< Unit within 0.001.
   Vector3 angular_velocity_rad_s{};    ///< In W.
   double position_error_m = 0;         ///< The true position is at most this far away.
   double velocity_error_m_s = 0;       ///< Likewise the true velocity.
   double rotation_error_rad = 0;       ///< Likewise the true orientation, as an angle.
-  Vector3 thrust_direction{};          ///< Unit d with acceleration·d >= 0; zero: not declared.
+  Vector3 thrust_direction{};          ///< Unit d, what is unknown of the acceleration · d >= 0.
   std::int64_t direction_until_ns = kNever;  ///< The declared direction holds until then.
   std::int64_t expiry_ns = kNever;           ///< Promises exclude the agent from then on.
   bool discontinuity = false;                ///< The motion jumped here: a teleport or a bounce.

@@ -142,6 +142,7 @@ void Validate(const AgentDescription& description) {
            "0, or " + Text(wire::kMarginMin) + " to " + Text(kRadiusMax));
   }
   CheckNumber("acceleration_max_m_s2", description.acceleration_max_m_s2, 0, kAccelerationMax);
+  CheckNumber("jerk_max_m_s3", description.jerk_max_m_s3, 0, wire::kJerkMax);
   CheckNumber("angular_acceleration_max_rad_s2", description.angular_acceleration_max_rad_s2,
               -kAccelerationMax, kAccelerationMax);
   CheckNumber("speed_max_m_s", description.speed_max_m_s, 0, kSpeedMax);
@@ -154,6 +155,7 @@ void Validate(const State& state) {
   CheckInstant("stamp_ns", state.stamp_ns);
   CheckVector("position_m", state.position_m, kCoordinateMax);
   CheckVector("velocity_m_s", state.velocity_m_s, kSpeedMax);
+  CheckVector("acceleration_m_s2", state.acceleration_m_s2, kAccelerationMax);
   CheckUnit("orientation", state.orientation, "length 1 within 0.001");
   CheckVector("angular_velocity_rad_s", state.angular_velocity_rad_s, kAngularSpeedMax);
   CheckNumber("position_error_m", state.position_error_m, 0, kRadiusMax);

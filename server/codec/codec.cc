@@ -151,6 +151,7 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
   CheckTags(wire, &check);
   check.Number("radius_m", wire.radius_m(), 0, wire::kRadiusMax);
   check.Number("acceleration_max_m_s2", wire.acceleration_max_m_s2(), 0, wire::kAccelerationMax);
+  check.Number("jerk_max_m_s3", wire.jerk_max_m_s3(), 0, wire::kJerkMax);
   check.Number("angular_acceleration_max_rad_s2", wire.angular_acceleration_max_rad_s2(),
                -wire::kAccelerationMax, wire::kAccelerationMax);
   check.Number("speed_max_m_s", wire.speed_max_m_s(), 0, wire::kSpeedMax);
@@ -182,6 +183,7 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
   const double radius = margin > 0 ? numeric::AddUp(wire.radius_m(), margin) : wire.radius_m();
   return detection::AgentDeclaration{.limits = {.radius = radius,
                                                 .acceleration_max = wire.acceleration_max_m_s2(),
+                                                .jerk_max = wire.jerk_max_m_s3(),
                                                 .time_step = wire.time_step_s(),
                                                 .speed_max = cap > 0 ? cap : numeric::kInfinity,
                                                 .angular_acceleration_max = alpha < 0 ? -1 : alpha},
@@ -218,6 +220,7 @@ Decoded<motion::MotionState> DecodeState(const v1::AgentStates& chunk, const v1:
   FieldCheck check(At(chunk, wire));
   check.Vector("position_m", wire.position_m(), wire::kCoordinateMax);
   check.Vector("velocity_m_s", wire.velocity_m_s(), wire::kSpeedMax);
+  check.Vector("acceleration_m_s2", wire.acceleration_m_s2(), wire::kAccelerationMax);
   check.Vector("angular_velocity_rad_s", wire.angular_velocity_rad_s(), wire::kAngularSpeedMax);
   check.Number("position_error_m", wire.position_error_m(), 0, wire::kRadiusMax);
   check.Number("velocity_error_m_s", wire.velocity_error_m_s(), 0, wire::kSpeedMax);
@@ -233,6 +236,7 @@ Decoded<motion::MotionState> DecodeState(const v1::AgentStates& chunk, const v1:
   motion::MotionState state{.stamp = Instant::FromNanoseconds(wire.stamp_ns()),
                             .p_WA = ToVector(wire.position_m()),
                             .v_WA = ToVector(wire.velocity_m_s()),
+                            .a_WA = ToVector(wire.acceleration_m_s2()),
                             .w_WB = ToVector(wire.angular_velocity_rad_s()),
                             .position_error = wire.position_error_m(),
                             .velocity_error = wire.velocity_error_m_s(),

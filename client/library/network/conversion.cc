@@ -51,6 +51,7 @@ v1::AgentDescription ToMessage(const AgentDescription& description) {
   message.set_radius_m(description.radius_m);
   message.set_margin_m(description.margin_m);
   message.set_acceleration_max_m_s2(description.acceleration_max_m_s2);
+  message.set_jerk_max_m_s3(description.jerk_max_m_s3);
   message.set_angular_acceleration_max_rad_s2(description.angular_acceleration_max_rad_s2);
   message.set_speed_max_m_s(description.speed_max_m_s);
   message.set_time_step_s(description.time_step_s);
@@ -72,6 +73,7 @@ v1::AgentState ToMessage(const State& state) {
   message.set_stamp_ns(state.stamp_ns);
   Set(state.position_m, message.mutable_position_m());
   Set(state.velocity_m_s, message.mutable_velocity_m_s());
+  Set(state.acceleration_m_s2, message.mutable_acceleration_m_s2());
   v1::Quaternion* orientation = message.mutable_orientation();
   orientation->set_w(state.orientation[0]);
   orientation->set_x(state.orientation[1]);
@@ -97,6 +99,7 @@ State FromMessage(const v1::AgentState& message) {
   state.stamp_ns = message.stamp_ns();
   state.position_m = VectorOf(message.position_m());
   state.velocity_m_s = VectorOf(message.velocity_m_s());
+  state.acceleration_m_s2 = VectorOf(message.acceleration_m_s2());
   const v1::Quaternion& orientation = message.orientation();
   state.orientation = {orientation.w(), orientation.x(), orientation.y(), orientation.z()};
   state.angular_velocity_rad_s = VectorOf(message.angular_velocity_rad_s());
@@ -119,6 +122,7 @@ DescribedAgent FromMessage(const v1::AgentDescription& message) {
   agent.description.radius_m = message.radius_m();
   agent.description.margin_m = message.margin_m();
   agent.description.acceleration_max_m_s2 = message.acceleration_max_m_s2();
+  agent.description.jerk_max_m_s3 = message.jerk_max_m_s3();
   agent.description.angular_acceleration_max_rad_s2 = message.angular_acceleration_max_rad_s2();
   agent.description.speed_max_m_s = message.speed_max_m_s();
   agent.description.time_step_s = message.time_step_s();

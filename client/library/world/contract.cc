@@ -66,6 +66,7 @@ motion::MotionState ToCore(const State& state) {
   core.stamp = Instant::FromNanoseconds(state.stamp_ns);
   core.p_WA = Eigen::Map<const Eigen::Vector3d>(state.position_m.data());
   core.v_WA = Eigen::Map<const Eigen::Vector3d>(state.velocity_m_s.data());
+  core.a_WA = Eigen::Map<const Eigen::Vector3d>(state.acceleration_m_s2.data());
   core.position_error = state.position_error_m;
   core.velocity_error = state.velocity_error_m_s;
   return core;
@@ -75,6 +76,7 @@ motion::SpaceTimeBound ToCore(const MotionBounds& bounds, const State& state) {
   motion::SpaceTimeBound core;
   core.state = ToCore(state);
   core.limits.acceleration_max = bounds.acceleration_max_m_s2;
+  core.limits.jerk_max = bounds.jerk_max_m_s3;
   core.limits.time_step = bounds.time_step_s;
   return core;
 }
@@ -83,13 +85,25 @@ bool PathStandsIn(const MotionBounds& bounds, const State& sent, const State& ne
   const double speed_sent = Norm(sent.velocity_m_s), speed_next = Norm(next.velocity_m_s);
   const double speed = std::max(speed_sent, speed_next);
   const double range = std::max(Norm(sent.position_m), Norm(next.position_m)) + speed * s;
-  const Room room = RoomFor(bounds.acceleration_max_m_s2, bounds.time_step_s, speed, range, s);
+  const double jerk = bounds.jerk_max_m_s3;
+  Room room = RoomFor(bounds.acceleration_max_m_s2, bounds.time_step_s, speed, range, s);
+  room.position += jerk * s * s * s / 6;
+  room.velocity += 0.5 * jerk * s * s;
   const double velocity_error = sent.velocity_error_m_s + next.velocity_error_m_s;
   const double position_error =
       sent.position_error_m + next.position_error_m + sent.velocity_error_m_s * s;
   Vector3 moved = Difference(next.position_m, sent.position_m);
-  for (int axis = 0; axis < 3; ++axis) moved[axis] -= sent.velocity_m_s[axis] * s;
-  const Vector3 sped = Difference(next.velocity_m_s, sent.velocity_m_s);
+  Vector3 sped = Difference(next.velocity_m_s, sent.velocity_m_s);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double gained = sent.acceleration_m_s2[axis] * s;
+    moved[axis] -= (sent.velocity_m_s[axis] + 0.5 * gained) * s;
+    sped[axis] -= gained;
+  }
+  const Vector3 changed = Difference(next.acceleration_m_s2, sent.acceleration_m_s2);
+  if (!(Norm(changed) <= 2 * bounds.acceleration_max_m_s2 + jerk * s +
+                             kRounding * Norm(next.acceleration_m_s2))) {
+    return false;
+  }
   if (!(Norm(moved) <= room.position + position_error)) return false;
   if (!(Norm(sped) <= room.velocity + velocity_error)) return false;
   if (bounds.speed_max_m_s > 0 &&
@@ -125,6 +139,7 @@ bool TurnStandsIn(const MotionBounds& bounds, const State& sent, const State& ne
 
 MotionBounds BoundsOf(const AgentDescription& description) {
   return {.acceleration_max_m_s2 = description.acceleration_max_m_s2,
+          .jerk_max_m_s3 = description.jerk_max_m_s3,
           .angular_acceleration_max_rad_s2 = description.angular_acceleration_max_rad_s2,
           .speed_max_m_s = description.speed_max_m_s,
           .time_step_s = description.time_step_s,

@@ -8,6 +8,7 @@ namespace collision::client {
 /// What an agent's description declares about its motion.
 struct MotionBounds {
   double acceleration_max_m_s2 = 0;
+  double jerk_max_m_s3 = 0;
   double angular_acceleration_max_rad_s2 = -1;  ///< < 0: not declared.
   double speed_max_m_s = 0;                     ///< 0: not declared.
   double time_step_s = 0;
@@ -18,8 +19,9 @@ MotionBounds BoundsOf(const AgentDescription& description);
 
 /// Whether `sent`, the last state sent, stands in for `next`: `next` lies within everything that
 /// `sent` promises, so a service that knows `sent` alone is not misled. With s the seconds between
-/// the two, M the greatest acceleration and h the time step:
-///   |p' − p − v s| <= ½ M s (s + h) + errors  and  |v' − v| <= M s + errors,
+/// the two, a the known acceleration, D and J what may be wrong about it and h the time step:
+///   |p' − p − v s − ½ a s²| <= ½ D s (s + h) + ⅙ J s³ + errors,
+///   |v' − v − a s| <= D s + ½ J s² + errors  and  |a' − a| <= 2 D + J s,
 /// the balls of the two states intersect at every instant between them, as the service checks it;
 /// likewise orientation and angular velocity of an agent that has a shape; no acceleration against
 /// a declared direction, no speed above a declared cap. And `next` declares nothing new: no error
