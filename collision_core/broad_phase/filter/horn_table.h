@@ -26,8 +26,9 @@ struct HornRow {
   bool still = false;            ///< NeverMoves().
   bool unfilterable = false;     ///< Too large or too far for filters: tested directly.
   bool ruled = false;            ///< PairRules holds a rule of the agent.
+  bool bent = false;             ///< An acceleration is known, or a jerk declared.
 };
-static_assert(sizeof(HornRow) == 96, "a row is one and a half lines of the cache");
+static_assert(sizeof(HornRow) == 128, "a row is two lines of the cache");
 
 /// A reach below is a sum or product of fewer than sixteen terms of one sign: kSomeRoundingsUp
 /// rounds it outward. What a sum of terms of either sign loses is less than this times the sum of
@@ -35,7 +36,7 @@ static_assert(sizeof(HornRow) == 96, "a row is one and a half lines of the cache
 inline constexpr double kLineRounding = 0x1p-48;
 
 /// All bounds by index. For an agent that declares no more than radius and acceleration the row of
-/// 96 bytes is everything that is kept: the bound itself is made again from it, bit for bit, for
+/// 128 bytes is everything that is kept: the bound itself is made again from it, bit for bit, for
 /// the few pairs that reach the canonical routine. Other bounds are kept whole beside their rows.
 class HornTable {
  public:
@@ -68,7 +69,7 @@ class HornTable {
   /// Prefetches the row into the cache.
   void Fetch(std::uint32_t agent) const {
     __builtin_prefetch(&rows_[agent]);
-    __builtin_prefetch(&rows_[agent].ball.s1);
+    __builtin_prefetch(&rows_[agent].ball.bend);
   }
   /// The row of a bound that is in no table and has no rules.
   static HornRow RowOf(const AgentBound& bound);
@@ -106,6 +107,7 @@ class HornTable {
   static constexpr std::uint32_t kPlain = 0;  ///< HornRow::full: the row says everything.
 
   static void Fill(const AgentBound& agent, double half_margin, HornRow* filled);
+  static void BendAt(const HornRow& row, double line, double tau, numeric::QuickBall* at);
   void SetFull(HornRow* row, const motion::SpaceTimeBound& bound);
   void DropFull(HornRow* row);
 
@@ -134,11 +136,12 @@ inline numeric::QuickBall HornTable::At(const HornRow& row, Instant instant) {
           kLineRounding * lost;
   at.s1 = numeric::kSomeRoundingsUp * (from.s1 + 2 * tau * from.s2);
   at.s2 = from.s2;
+  if (row.bent) BendAt(row, line, tau, &at);
   return at;
 }
 
 /// A ball around a hypertrapezoid's box over a window of `duration` seconds, from the ball of its
-/// horn: chords instead of parabolas, corners √3 times as far as the ball, and what the faces at
+/// horn: chords instead of curves, corners √3 times as far as the ball, and what the faces at
 /// the end of the window lose by rounding.
 numeric::QuickBall BoxReach(numeric::QuickBall horn, double duration);
 
