@@ -12,8 +12,9 @@ namespace collision::broad_phase {
 namespace {
 
 /// The first δ >= 0, rounded down, at which the ball may have come to the plane. The distance to
-/// it, times |n|, is a quadratic that no tangent has to bound:
-///   (n·(p + shift) − offset − |n| (r + margin + u0)) − (|n| u1 − n·v) δ − |n| u2 δ².
+/// it, times |n|, is a cubic that no tangent has to bound:
+///   (n·(p + shift) − offset − |n| (r + margin + u0)) − (|n| u1 − n·v) δ − (|n| u2 − n·h) δ² − |n| u3
+///   δ³.
 /// Positions first: far from the origin only what the inputs lost is lost.
 double FirstReach(const HalfSpace& half_space, const numeric::MovingBall& ball, double margin) {
   const numeric::IntervalVector n(half_space.normal);
@@ -22,7 +23,9 @@ double FirstReach(const HalfSpace& half_space, const numeric::MovingBall& ball, 
       length * (numeric::Cubic{ball.radius + margin, 0, 0} + ball.u);
   const numeric::Interval along = (Dot(n, ball.anchor) - half_space.offset) + Dot(n, ball.shift);
   const numeric::Interval closing = reach.c1 - Dot(n, ball.velocity);
-  return numeric::FirstZero((along - reach.c0).lower, closing.upper, std::max(0.0, reach.c2.upper));
+  const numeric::Interval growth = ball.bends ? reach.c2 - Dot(n, ball.bend) : reach.c2;
+  return numeric::FirstZero((along - reach.c0).lower, closing.upper, growth.upper,
+                            std::max(0.0, reach.c3.upper));
 }
 
 /// What a coordinate's products and sums may lose, relative to the sum of their magnitudes: fewer
@@ -92,9 +95,11 @@ const HalfSpaces::Entry* HalfSpaces::Find(std::uint32_t agent) const {
   return nullptr;
 }
 
-// The distance is concave in time: above zero at both ends it is so between them.
-bool MayReach(const HalfSpaces::Entry& entry, const numeric::QuickBall& horn, double margin,
+// The distance is concave in time, with a bend as part of the reach: above zero at both ends it is
+// so between them.
+bool MayReach(const HalfSpaces::Entry& entry, const numeric::QuickBall& given, double margin,
               double limit) {
+  const numeric::QuickBall horn = given.bends() ? Straightened(given) : given;
   const HalfSpace& half_space = entry.half_space;
   const auto stays_out_at = [&](double x) {
     double along = -half_space.offset, magnitude = std::abs(half_space.offset);
@@ -103,7 +108,8 @@ bool MayReach(const HalfSpaces::Entry& entry, const numeric::QuickBall& horn, do
       along += n * (c + way);
       magnitude += std::abs(n) * (std::abs(c) + std::abs(way));
     }
-    const double reach = entry.length * (horn.s0 + margin + x * (horn.s1 + x * horn.s2));
+    const double reach =
+        entry.length * (horn.s0 + margin + x * (horn.s1 + x * (horn.s2 + x * horn.s3)));
     return along - reach - kRounding * (magnitude + reach) > kLeast;
   };
   return !(stays_out_at(0) && stays_out_at(std::min(kAhead * limit, kForever)));

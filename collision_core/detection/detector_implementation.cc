@@ -90,7 +90,7 @@ UpdateOutcome Detector::Implementation::Keep(const NextState& next,
                                              const motion::ContractCheck& check) {
   ++counters_.updates_kept;
   AgentRecord& record = agents_[next.agent];
-  const bool covered = record.margin.Spend(check, record.bound().state);
+  const bool covered = record.margin.Spend(check, record.bound());
   if (IsNarrower(record.bound().limits, record.declaration.limits)) {
     clearances_.RecordFormerMotion(next.agent, {record.bound(), record.declaration.filter},
                                    next.stamp());

@@ -47,15 +47,17 @@ double FirstOverlap(const Timeline& a, const Timeline& b, double margin, double 
 
 double LaterOfCappedBalls(const BoundPair& pair, double time, double limit) {
   const Timeline line_A(pair.a, pair.base), line_B(pair.b, pair.base);
+  // Up to a cap's start the balls are the horns': where those have met before, they have too.
+  double latest = time;
   const auto wait = [&](const Timeline& first, const Timeline& second) {
     if (time > std::min(first.start, second.start)) {
-      time = std::max(time, FirstOverlap(first, second, pair.margin, limit));
+      latest = std::max(latest, FirstOverlap(first, second, pair.margin, limit));
     }
   };
   wait(line_A, line_B.WithoutCap());
   wait(line_A.WithoutCap(), line_B);
   wait(line_A, line_B);
-  return time;
+  return latest;
 }
 
 }  // namespace collision::intersection

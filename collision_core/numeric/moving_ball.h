@@ -86,6 +86,8 @@ struct QuickBall {
   double s0, s1, s2;
   double s3 = 0;
   double bend[3] = {0, 0, 0};  ///< Half the known acceleration [m/s²].
+
+  bool bends() const { return s3 != 0 || bend[0] != 0 || bend[1] != 0 || bend[2] != 0; }
 };
 
 /// The ball of the relative motion from A to B, rounded to nearest: what that costs is part of the

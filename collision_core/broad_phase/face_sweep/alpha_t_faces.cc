@@ -69,7 +69,8 @@ motion::SpaceTimeBound Grown(motion::SpaceTimeBound bound, double by) {
 
 /// Requires stamp <= start.
 FaceLines LinesFrom(const motion::SpaceTimeBound& bound, Instant start, Instant end) {
-  const bool is_ball = bound.state.direction.isZero(0) && !HasSpeedCap(bound.limits);
+  const bool is_ball =
+      bound.state.direction.isZero(0) && !HasSpeedCap(bound.limits) && !Bends(bound);
   return is_ball ? LinesOfBall(bound, start, end) : LinesOf(MakeHypertrapezoid(bound, start, end));
 }
 

@@ -68,8 +68,9 @@ std::int64_t FirstWindow(const BoundList& bounds, const std::vector<std::uint32_
   if (sample.empty()) return 1;
   std::vector<double> radii =
       Gather(sample, [](const motion::SpaceTimeBound& bound) { return bound.limits.radius; });
-  std::vector<double> accelerations = Gather(
-      sample, [](const motion::SpaceTimeBound& bound) { return bound.limits.acceleration_max; });
+  std::vector<double> accelerations = Gather(sample, [](const motion::SpaceTimeBound& bound) {
+    return bound.limits.acceleration_max + bound.state.a_WA.norm();
+  });
   const double length = Quantile(&radii, 7, 8) + Spacing(sample, agents.size());
   // Infinite, or not a number, if nothing moves or has a length: any window will do then.
   const double seconds = std::min(std::sqrt(length / Quantile(&accelerations, 7, 8)),

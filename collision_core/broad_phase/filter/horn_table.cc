@@ -13,18 +13,51 @@ namespace {
 constexpr double kPositionMax = 0x1p+60;
 constexpr double kRateMax = 0x1p+40;
 
-/// Whether an intersection depends on radius and acceleration alone, so that the row says
+/// Whether an intersection depends on radius and unknown acceleration alone, so that the row says
 /// everything. The row holds half of the acceleration, which has to be exact.
 bool IsPlain(const motion::SpaceTimeBound& bound) {
   const motion::MotionState& state = bound.state;
   const motion::MotionLimits& limits = bound.limits;
-  return bound.skew == 0 && state.position_error == 0 && state.velocity_error == 0 &&
+  return !Bends(bound) && bound.skew == 0 && state.position_error == 0 && state.velocity_error == 0 &&
          limits.time_step == 0 && limits.speed_max == numeric::kInfinity &&
          state.direction.isZero(0) && state.expiry.is_never() &&
          2 * (0.5 * limits.acceleration_max) == limits.acceleration_max;
 }
 
+/// What a known acceleration and a jerk add to the ball of a row (space_time_bound.h).
+void Bend(const motion::SpaceTimeBound& bound, numeric::QuickBall* ball) {
+  constexpr double kUp = numeric::kSomeRoundingsUp;
+  const double skew = bound.skew, step = bound.limits.time_step, jerk = bound.limits.jerk_max;
+  for (int axis = 0; axis < 3; ++axis) ball->bend[axis] = 0.5 * bound.state.a_WA[axis];
+  const double whole = skew + step, rate = 2 * Length(ball->bend) * (skew + 0.5 * step);
+  const double s3 = jerk / 6;
+  ball->s0 =
+      kUp * (ball->s0 + rate * skew + s3 * (skew * (skew * skew + 3 * step * whole)));
+  ball->s1 = kUp * (ball->s1 + rate + 0.5 * jerk * whole * whole);
+  ball->s2 = kUp * (ball->s2 + 0.5 * jerk * whole);
+  ball->s3 = kUp * s3;
+}
+
 }  // namespace
+
+// The centre is a polynomial, as exact before the stamp as after it; what its terms and those of its
+// slope lose is added to the reach.
+void HornTable::BendAt(const HornRow& row, double line, double tau, numeric::QuickBall* at) {
+  const numeric::QuickBall& from = row.ball;
+  double bent = 0, faster = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double h = from.bend[axis], gained = 2 * h * line, way = h * line * line;
+    at->bend[axis] = h;
+    at->v[axis] += gained;
+    at->c[axis] += way;
+    bent += std::abs(way);
+    faster += std::abs(from.v[axis]) + std::abs(gained);
+  }
+  at->s0 = numeric::kSomeRoundingsUp * (at->s0 + tau * tau * tau * from.s3) + kLineRounding * bent;
+  at->s1 = numeric::kSomeRoundingsUp * (at->s1 + 3 * tau * tau * from.s3) + kLineRounding * faster;
+  at->s2 = numeric::kSomeRoundingsUp * (at->s2 + 3 * tau * from.s3);
+  at->s3 = from.s3;
+}
 
 void HornTable::SetFull(HornRow* row, const AgentBound& bound) {
   if (row->full == kPlain) {
@@ -72,7 +105,9 @@ void HornTable::Fill(const AgentBound& agent, double half_margin, HornRow* fille
     ball.v[axis] = state.v_WA[axis];
   }
   const double half = 0.5 * limits.acceleration_max;
-  ball.s0 = limits.radius, ball.s1 = 0, ball.s2 = half;
+  ball.s0 = limits.radius, ball.s1 = 0, ball.s2 = half, ball.s3 = 0;
+  std::fill_n(ball.bend, 3, 0.0);
+  row.bent = Bends(bound);
   row.stamp = state.stamp;
   row.group = agent.filter.group, row.mask = agent.filter.mask;
   row.assembly = agent.filter.assembly;
@@ -86,12 +121,14 @@ void HornTable::Fill(const AgentBound& agent, double half_margin, HornRow* fille
     ball.s1 = numeric::kSomeRoundingsUp * (state.velocity_error + half * (2 * skew + step));
     ball.s2 = numeric::kSomeRoundingsUp * half;
   }
+  if (row.bent) Bend(bound, &ball);
   row.still = NeverMoves(bound);
   const auto largest = [](const double* v) {
     return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
   };
   row.unfilterable = !(std::max(largest(ball.c), ball.s0) < kPositionMax &&
-                       std::max({largest(ball.v), ball.s1, ball.s2}) < kRateMax && Near(row.stamp));
+                       std::max({largest(ball.v), ball.s1, ball.s2, ball.s3}) < kRateMax &&
+                       largest(ball.bend) < kRateMax && Near(row.stamp));
   // A group of no bits meets no agent, and is not the mark of a free row.
   if (row.group == 0) row.group = 1, row.mask = 0;
 }
@@ -189,11 +226,22 @@ void HornTable::Validate() const {
 
 numeric::QuickBall BoxReach(numeric::QuickBall horn, double duration) {
   constexpr double kCorner = numeric::kSomeRoundingsUp * std::numbers::sqrt3;
-  double way = 0;
+  double way = 0, faster = 0, bulge = 0;
+  if (horn.bends()) {
+    // The chord of the centre's path; a face bulges ⅛ a T² = ¼ h T² out of its own.
+    for (int axis = 0; axis < 3; ++axis) {
+      const double gained = horn.bend[axis] * duration;
+      horn.v[axis] += gained;
+      faster += std::abs(horn.v[axis]) + std::abs(gained);
+    }
+    bulge = 0.25 * Length(horn.bend) * duration * duration;
+    std::fill_n(horn.bend, 3, 0.0);
+  }
   for (const double v : horn.v) way += std::abs(v) * duration;
-  horn.s0 = kCorner * (horn.s0 + kLineRounding * way);
-  horn.s1 = kCorner * (horn.s1 + horn.s2 * duration);
-  horn.s2 = 0;
+  horn.s0 = kCorner * (horn.s0 + bulge + kLineRounding * way);
+  horn.s1 = kCorner * (horn.s1 + duration * (horn.s2 + duration * horn.s3)) +
+            kLineRounding * faster;
+  horn.s2 = horn.s3 = 0;
   return horn;
 }
 

@@ -20,7 +20,7 @@ namespace collision::broad_phase {
 /// expiry or speed cap say beyond. Of the filter it holds what decides between agents without
 /// lists.
 struct HornRow {
-  static constexpr std::uint32_t kFullMax = (1u << 28) - 1;
+  static constexpr std::uint32_t kFullMax = (1u << 27) - 1;
 
   numeric::QuickBall ball;  ///< s0 is grown by half of the agent's greatest margin.
   Instant stamp;
@@ -28,16 +28,17 @@ struct HornRow {
   std::uint32_t mask = 0;
   std::uint32_t assembly = 0;
   /// Where HornTable keeps the whole bound and filter; kPlain: nowhere.
-  std::uint32_t full : 28 = 0;
+  std::uint32_t full : 27 = 0;
   bool still : 1 = false;         ///< NeverMoves().
   bool unfilterable : 1 = false;  ///< Too large or too far for filters: tested directly.
   bool ruled : 1 = false;         ///< PairRules holds a rule of the agent.
   bool listing : 1 = false;       ///< The filter lists single partners.
+  bool bent : 1 = false;          ///< An acceleration is known, or a jerk declared.
 
   /// Whether its filter can keep it apart from others.
   bool filtered() const { return mask != ~0u || assembly != 0 || listing; }
 };
-static_assert(sizeof(HornRow) == 96, "a row is one and a half lines of the cache");
+static_assert(sizeof(HornRow) == 128, "a row is two lines of the cache");
 
 /// A reach below is a sum or product of fewer than sixteen terms of one sign: kSomeRoundingsUp
 /// rounds it outward. What a sum of terms of either sign loses is less than this times the sum of
@@ -45,7 +46,7 @@ static_assert(sizeof(HornRow) == 96, "a row is one and a half lines of the cache
 inline constexpr double kLineRounding = 0x1p-48;
 
 /// All bounds by index. For an agent that declares no more than radius and acceleration, and lists
-/// no partners, the row of 96 bytes is everything that is kept beside its name: the bound itself is
+/// no partners, the row of 128 bytes is everything that is kept beside its name: the bound itself is
 /// made again from it, bit for bit, for the few pairs that reach the canonical routine. Other
 /// bounds and filters are kept whole beside their rows.
 class HornTable {
@@ -77,7 +78,7 @@ class HornTable {
   /// Prefetches the row into the cache.
   void Fetch(std::uint32_t agent) const {
     __builtin_prefetch(&rows_[agent]);
-    __builtin_prefetch(&rows_[agent].ball.s1);
+    __builtin_prefetch(&rows_[agent].ball.bend);
   }
   /// The row of a bound that is in no table and has no rules.
   static HornRow RowOf(const AgentBound& bound);
@@ -137,6 +138,7 @@ class HornTable {
   static constexpr std::uint32_t kPlain = 0;  ///< HornRow::full: the row says everything.
 
   static void Fill(const AgentBound& agent, double half_margin, HornRow* filled);
+  static void BendAt(const HornRow& row, double line, double tau, numeric::QuickBall* at);
   void SetFull(HornRow* row, const AgentBound& bound);
   void DropFull(HornRow* row);
   void SetName(std::uint32_t agent, std::uint32_t name);
@@ -174,11 +176,12 @@ inline numeric::QuickBall HornTable::At(const HornRow& row, Instant instant) {
           kLineRounding * lost;
   at.s1 = numeric::kSomeRoundingsUp * (from.s1 + 2 * tau * from.s2);
   at.s2 = from.s2;
+  if (row.bent) BendAt(row, line, tau, &at);
   return at;
 }
 
 /// A ball around a hypertrapezoid's box over a window of `duration` seconds, from the ball of its
-/// horn: chords instead of parabolas, corners √3 times as far as the ball, and what the faces at
+/// horn: chords instead of curves, corners √3 times as far as the ball, and what the faces at
 /// the end of the window lose by rounding.
 numeric::QuickBall BoxReach(numeric::QuickBall horn, double duration);
 

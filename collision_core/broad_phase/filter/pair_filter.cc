@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "collision_core/numeric/first_approach_quick.h"
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::broad_phase {
@@ -23,21 +24,21 @@ constexpr double kStepShare = 1 - 0x1p-40;
 /// A step below this part of the time so far ends the search: the next one would add nothing.
 constexpr double kWorthAStep = 1e-9;
 
-}  // namespace
-
 // Two tests show that the balls stay apart. Along the direction from one centre to the other at the
 // start the gap is concave in time: positive at both ends, it is positive in between. And the least
 // distance of the two lines may exceed the reach at the end. What rounding takes is less than 2^-48
 // of distances, ways and reaches; it is added to the reach.
-bool ComeNear(const numeric::QuickBall& difference, double last) {
-  const auto& [c, v, s0, s1, s2] = difference;
+bool StraightOnesComeNear(const numeric::QuickBall& difference, double last) {
+  const double (&c)[3] = difference.c, (&v)[3] = difference.v;
+  const double s0 = difference.s0;
   double square = 0, away = 0, speed_square = 0;
   for (int axis = 0; axis < 3; ++axis) {
     square += c[axis] * c[axis];
     away += c[axis] * v[axis];
     speed_square += v[axis] * v[axis];
   }
-  const double grown = s0 + last * (s1 + last * s2);
+  const double grown =
+      s0 + last * (difference.s1 + last * (difference.s2 + last * difference.s3));
   const double lost = kSquareLoss * (grown * grown + square + speed_square * last * last);
   const double reach_square = grown * grown + lost;
   const double along = square + away * last;
@@ -58,8 +59,9 @@ bool ComeNear(const numeric::QuickBall& difference, double last) {
 // Rounding: d(x) and S(x) are off by less than 2^-48 of the terms they are sums of, n·v by 2^-50
 // |v|; the gap is made smaller and k larger by more than that, and the step shorter by 2^-40, which
 // covers the root's own rounding.
-double EarlierBound(const numeric::QuickBall& difference, double limit) {
-  const auto& [c, v, s0, s1, s2] = difference;
+double EarlierBoundOfStraight(const numeric::QuickBall& difference, double limit) {
+  const double (&c)[3] = difference.c, (&v)[3] = difference.v;
+  const double s0 = difference.s0, s1 = difference.s1, s2 = difference.s2;
   const double speed = Length(v), span = Length(c);
   double x = 0;
   for (int tangent = 0; tangent < kTangentsMax; ++tangent) {
@@ -81,6 +83,20 @@ double EarlierBound(const numeric::QuickBall& difference, double limit) {
     if (!(x <= limit) || step < kWorthAStep * x) return x;
   }
   return x;
+}
+
+}  // namespace
+
+// A bend is part of the reach here.
+bool ComeNear(const numeric::QuickBall& difference, double last) {
+  return StraightOnesComeNear(difference.bends() ? Straightened(difference) : difference, last);
+}
+
+// The quick root finder's allowances for its own rounding leave 2 · 2^-53 of each term, more than
+// the difference of two rows loses.
+double EarlierBound(const numeric::QuickBall& difference, double limit) {
+  if (!difference.bends()) return EarlierBoundOfStraight(difference, limit);
+  return QuickFirstApproach({difference, 0, 0, 0, true}, limit).delta;
 }
 
 }  // namespace collision::broad_phase

@@ -21,6 +21,7 @@ void PlacedBalls::Reset(std::uint32_t size) {
     floats_.assign(kArrays * stride_, 0);
   }
   agents_.resize(size);
+  has_cubes_ = false;
 }
 
 void PlacedBalls::Resize(std::uint32_t size) {
@@ -33,12 +34,14 @@ void PlacedBalls::Resize(std::uint32_t size) {
                 grown.floats_.begin() + static_cast<std::ptrdiff_t>(which * grown.stride_));
   }
   std::copy_n(agents_.begin(), kept, grown.agents_.begin());
+  grown.has_cubes_ = has_cubes_;
   *this = std::move(grown);
 }
 
 FilterView PlacedBalls::view() const {
   return {array(kX),      array(kX + 1), array(kX + 2), array(kVx), array(kVx + 1),
-          array(kVx + 2), array(kS0),    array(kS1),    array(kS2), array(kSpeed)};
+          array(kVx + 2), array(kS0),    array(kS1),    array(kS2), has_cubes_ ? array(kS3) : nullptr,
+          array(kSpeed)};
 }
 
 void PlacedBalls::Validate(std::uint32_t count) const {
@@ -53,7 +56,7 @@ void PlacedBalls::Validate(std::uint32_t count) const {
     for (std::size_t which = 0; which < kArrays; ++which) {
       CORE_CHECK(!std::isnan(array(which)[k]), "a placed agent's lanes are numbers", k, which);
     }
-    for (const std::size_t which : {kS0, kS1, kS2, kSpeed}) {
+    for (const std::size_t which : {kS0, kS1, kS2, kS3, kSpeed}) {
       CORE_CHECK(array(which)[k] >= 0, "reaches and speed are not negative", k, which);
     }
   }
@@ -74,7 +77,7 @@ FilterQuery TimesOf(const PlacementFrame& frame, TimeWindow window) {
 FilterQuery QueryOf(const PlacedBall& horn, const PlacementFrame& frame, TimeWindow window) {
   FilterQuery query = TimesOf(frame, window);
   query.vx = horn.v[0], query.vy = horn.v[1], query.vz = horn.v[2], query.speed = horn.speed;
-  query.reach = ReachAt(query.time, horn.s0, horn.s1, horn.s2);
+  query.reach = ReachAt(query.time, horn.s0, horn.s1, horn.s2, horn.s3);
   return query;
 }
 

@@ -10,8 +10,8 @@
 namespace collision::broad_phase {
 
 /// A reach at a time, rounded up by more than the operations take.
-inline float ReachAt(float time, float s0, float s1, float s2) {
-  return (s0 + time * (s1 + time * s2)) * numeric::kFewFloatRoundingsUp;
+inline float ReachAt(float time, float s0, float s1, float s2, float s3) {
+  return (s0 + time * (s1 + time * (s2 + time * s3))) * numeric::kFewFloatRoundingsUp;
 }
 
 /// Placed balls as arrays of floats, seen from a corner near them.
@@ -40,7 +40,8 @@ class PlacedBalls {
       at[(kVx + axis) * stride_] = horn.v[axis];
     }
     at[kS0 * stride_] = horn.s0 + lost, at[kS1 * stride_] = horn.s1, at[kS2 * stride_] = horn.s2;
-    at[kSpeed * stride_] = horn.speed;
+    at[kS3 * stride_] = horn.s3, at[kSpeed * stride_] = horn.speed;
+    has_cubes_ = has_cubes_ || horn.s3 > 0;
     agents_[k] = horn.agent;
   }
   /// Walks the first `count` places: each agent has at most one; its reaches, speed and position
@@ -63,18 +64,20 @@ class PlacedBalls {
     const float* const at = floats_.data() + k;
     query.vx = at[kVx * stride_], query.vy = at[(kVx + 1) * stride_];
     query.vz = at[(kVx + 2) * stride_], query.speed = at[kSpeed * stride_];
-    query.reach = ReachAt(times.time, at[kS0 * stride_], at[kS1 * stride_], at[kS2 * stride_]);
+    query.reach = ReachAt(times.time, at[kS0 * stride_], at[kS1 * stride_], at[kS2 * stride_],
+                          at[kS3 * stride_]);
     return query;
   }
 
  private:
-  enum { kX = 0, kVx = 3, kS0 = 6, kS1, kS2, kSpeed, kArrays };
+  enum { kX = 0, kVx = 3, kS0 = 6, kS1, kS2, kS3, kSpeed, kArrays };
   const float* array(std::size_t which) const { return floats_.data() + which * stride_; }
 
   /// The arrays, one after the other, not a whole number of pages apart: else they would compete
   /// for the same lines of the processor's cache.
   std::vector<float> floats_;
   std::size_t stride_ = 0;
+  bool has_cubes_ = false;  ///< Some s3 has been other than zero.
   std::vector<std::uint32_t> agents_;
 };
 

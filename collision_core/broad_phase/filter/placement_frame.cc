@@ -26,7 +26,7 @@ constexpr double kGrowthMin = 0.25;
 struct Sample {
   double v[3] = {};
   double speed = 0;  ///< As seen from a frame that moves with v.
-  double s0 = 0, s1 = 0, s2 = 0;
+  double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
   double volume = 0;  ///< The volume of the box around all, divided among them.
 };
 
@@ -41,7 +41,8 @@ Sample TakeSample(const HornTable& table, Instant from) {
     const numeric::QuickBall horn = table.At(agent, from);
     count += 1;
     speed += Length(horn.v);
-    sample.s0 += horn.s0, sample.s1 += horn.s1, sample.s2 += horn.s2;
+    sample.s0 += horn.s0, sample.s1 += horn.s1, sample.s2 += horn.s2 + Length(horn.bend);
+    sample.s3 += horn.s3;
     for (int axis = 0; axis < 3; ++axis) {
       sample.v[axis] += horn.v[axis];
       low[axis] = std::min(low[axis], horn.c[axis]);
@@ -49,7 +50,8 @@ Sample TakeSample(const HornTable& table, Instant from) {
     }
   }
   if (count == 0) return sample;
-  for (double* sum : {&sample.v[0], &sample.v[1], &sample.v[2], &sample.s0, &sample.s1, &sample.s2})
+  for (double* sum : {&sample.v[0], &sample.v[1], &sample.v[2], &sample.s0, &sample.s1, &sample.s2,
+                      &sample.s3})
     *sum /= count;
   for (std::uint32_t agent = 0; agent < table.size(); agent += stride) {
     if (!table.contains(agent) || table.row(agent).unfilterable) continue;
@@ -80,8 +82,11 @@ double WindowOf(const Sample& sample) {
       numeric::CubeRoot(std::max(kNearPerAgent / kBall * sample.volume, kVolumeLeast));
   const double growth = std::max(reach - sample.s0, kGrowthMin * sample.s0);
   const double rate = sample.s1 + 0.5 * sample.speed;
-  if (!(rate > 0) && !(sample.s2 > 0)) return kWindowMax;
-  const double window = 2 * growth / (rate + std::sqrt(rate * rate + 4 * sample.s2 * growth));
+  double window = kWindowMax;
+  if (rate > 0 || sample.s2 > 0) {
+    window = 2 * growth / (rate + std::sqrt(rate * rate + 4 * sample.s2 * growth));
+  }
+  if (sample.s3 > 0) window = std::min(window, numeric::CubeRoot(growth / sample.s3));
   return std::clamp(window, kWindowMin, kWindowMax);
 }
 

@@ -13,13 +13,15 @@ namespace collision::broad_phase {
 
 /// A horn's ball in floats, for the filter in wide vectors: at u seconds after the middle of the
 /// placement's window its centre is at c + v u, as seen from the placement's frame, and up to x
-/// seconds after the placement's begin all of it lies within s0 + x (s1 + x s2) of there. Rounded
-/// outward, with the slack that SphereFilter asks for; PlacementFrame makes it.
+/// seconds after the placement's begin all of it lies within s0 + x (s1 + x (s2 + x s3)) of there.
+/// A known acceleration is part of the reach: the line is the tangent of the path at the begin.
+/// Rounded outward, with the slack that SphereFilter asks for; PlacementFrame makes it.
 struct PlacedBall {
   double c[3];  ///< In doubles: PlacedBalls stores it relative to a corner nearby.
   float v[3];
   float speed;  ///< |v|, rounded up.
-  float s0, s1, s2;
+  float s0, s1, s2, s3;
+  float bend;           ///< By bend u² is it off the line before the begin; rounded up.
   std::uint32_t agent;  ///< Its index, or kNoAgent.
 
   /// In place of an agent's index: the ball of a query about a bound that the table does not hold.
@@ -30,10 +32,11 @@ struct PlacedBall {
 struct PlacedExtent {
   double low[3] = {numeric::kInfinity, numeric::kInfinity, numeric::kInfinity},
          high[3] = {-numeric::kInfinity, -numeric::kInfinity, -numeric::kInfinity};
-  float s0 = 0, s1 = 0, s2 = 0, speed = 0;
+  float s0 = 0, s1 = 0, s2 = 0, s3 = 0, speed = 0;
 
   void Add(const PlacedBall& horn) {
     s0 = std::max(s0, horn.s0), s1 = std::max(s1, horn.s1), s2 = std::max(s2, horn.s2);
+    s3 = std::max(s3, horn.s3);
     speed = std::max(speed, horn.speed);
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], horn.c[axis]);
@@ -130,7 +133,8 @@ class PlacementFrame {
   template <typename Horn>
   double Reach(const Horn& horn, TimeWindow window) const {
     const double way = std::max(middle_ - window.first, window.last - middle_);
-    return horn.s0 + window.last * (horn.s1 + window.last * horn.s2) + horn.speed * way;
+    const double top = horn.s2 + window.last * horn.s3;
+    return horn.s0 + window.last * (horn.s1 + window.last * top) + horn.speed * way;
   }
   double middle() const { return middle_; }
 
@@ -193,16 +197,28 @@ inline PlacedBall PlacementFrame::AtBegin(const numeric::QuickBall& at) const {
   const double speed = seen.speed * kSpeedUp;
   horn.s0 = static_cast<float>((at.s0 + kLeast) * kUp);
   horn.s1 = static_cast<float>((at.s1 + kSlack * speed + kLeast) * kUp);
-  horn.s2 = static_cast<float>(at.s2 * kUp);
+  const double bend = at.bends() ? Length(at.bend) * kSpeedUp : 0;
+  horn.s2 = static_cast<float>((at.s2 + bend) * kUp);
+  horn.s3 = static_cast<float>(at.s3 * kUp);
+  horn.bend = static_cast<float>(bend * kUp);
   horn.speed = static_cast<float>(speed * kUp);
   horn.agent = PlacedBall::kNoAgent;
   return horn;
 }
 
-inline ReachPoint PlacementFrame::HalfWay(const numeric::QuickBall& at, double last) const {
+// A path that bends is off its tangent half-way by |bend| (½ last)² at most.
+inline ReachPoint PlacementFrame::HalfWay(const numeric::QuickBall& given, double last) const {
   constexpr double kSlack = kFilterSlack, kLeast = kReachLeast, kUp = 1 + 0x1p-20;
-  const SeenVelocity seen = Seen(at);
   const double half = 0.5 * last;
+  numeric::QuickBall at = given;
+  if (given.bends()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      at.c[axis] -= at.bend[axis] * half * half;
+      at.v[axis] += at.bend[axis] * last;
+    }
+    at.s0 += Length(at.bend) * half * half + last * last * last * at.s3;
+  }
+  const SeenVelocity seen = Seen(at);
   ReachPoint point;
   for (int axis = 0; axis < 3; ++axis) {
     point.c[axis] = at.c[axis] + seen.v[axis] * half;

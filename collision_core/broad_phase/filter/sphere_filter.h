@@ -7,12 +7,13 @@ namespace collision::broad_phase {
 
 /// Balls in arrays, in single precision. u seconds after the middle of the placement's window each
 /// has its centre at p + v u; up to `time` seconds after the placement's begin all of it lies
-/// within s0 + time (s1 + time s2) of there; `speed` is |v| or more. Positions are relative to a
-/// corner near them.
+/// within s0 + time (s1 + time (s2 + time s3)) of there; `speed` is |v| or more. Positions are
+/// relative to a corner near them.
 struct FilterView {
   const float *x, *y, *z;
   const float *vx, *vy, *vz;
   const float *s0, *s1, *s2;
+  const float* s3;  ///< Null: all are zero.
   const float* speed;
 };
 

@@ -35,8 +35,9 @@ WIDE inline std::uint32_t Scan(const FilterView& balls, const FilterQuery& query
     const Points at = {All(range.x), All(range.y), All(range.z)};
     for (std::uint32_t k = range.begin; k < range.end; k += kWidth) {
       const Points d = LoadPoints(balls.x + k, balls.y + k, balls.z + k) - at;
-      const Lanes own =
-          Load(balls.s0 + k) + time * (Load(balls.s1 + k) + time * Load(balls.s2 + k));
+      Lanes top = Load(balls.s2 + k);
+      if (balls.s3 != nullptr) top = top + time * Load(balls.s3 + k);
+      const Lanes own = Load(balls.s0 + k) + time * (Load(balls.s1 + k) + time * top);
       const Lanes both = reach + own;
       const Lanes ways = u_max * (own_speed + Load(balls.speed + k));
       unsigned mask = Lowest(range.end - k) & Within(d, both + ways);

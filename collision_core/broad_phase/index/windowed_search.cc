@@ -102,14 +102,20 @@ void WindowedSearch::StartAnew(const PlacementFrame& frame) {
   }
 }
 
+PlacedBall WindowedSearch::Placed(std::uint32_t agent) {
+  const PlacedBall horn = frame_.Place(table_, agent);
+  fastest_ = std::max(fastest_, horn.speed);
+  most_bent_ = std::max(most_bent_, horn.bend);
+  return horn;
+}
+
 void WindowedSearch::PlaceEveryAgent() {
   horns_.resize(table_.count());
-  fastest_ = 0;
+  fastest_ = most_bent_ = 0;
   std::size_t placed = 0;
   for (std::uint32_t agent = 0; agent < table_.size(); ++agent) {
     if (!table_.contains(agent) || scene().IsUnfilterable(agent)) continue;
-    horns_[placed] = frame_.Place(table_, agent);
-    fastest_ = std::max(fastest_, horns_[placed++].speed);
+    horns_[placed++] = Placed(agent);
   }
   horns_.resize(placed);
   store_->PlaceAll(scene(), &horns_);
@@ -129,9 +135,7 @@ void WindowedSearch::PlaceMoved() {
     if (scene().IsUnfilterable(agent)) {
       unfilterable_.push_back(agent);
     } else {
-      const PlacedBall horn = frame_.Place(table_, agent);
-      fastest_ = std::max(fastest_, horn.speed);
-      store_->Place(horn);
+      store_->Place(Placed(agent));
     }
   }
   moved_.clear();
@@ -227,7 +231,7 @@ void WindowedSearch::FindAllBut(std::uint32_t agent) {
 }
 
 // Placed balls have SphereFilter's slack for the way to the middle and from there on. A query
-// from before the begin looks farther back, which takes more slack.
+// from before the begin looks farther back, which takes more slack, and where paths bend more reach.
 void WindowedSearch::FindNear(PlacedBall horn, Instant from, double seconds) {
   const TimeWindow window = frame_.After(from, seconds);
   const double farther = -window.first - frame_.middle();
@@ -235,6 +239,10 @@ void WindowedSearch::FindNear(PlacedBall horn, Instant from, double seconds) {
     const double speeds = static_cast<double>(horn.speed) + static_cast<double>(fastest_);
     constexpr double kSlack = kFilterSlack, kLeast = kReachLeast;
     horn.s0 += static_cast<float>((kSlack * speeds + 2 * kLeast) * farther * kUpToFloat);
+  }
+  if (window.first < 0) {
+    const double bends = static_cast<double>(horn.bend) + static_cast<double>(most_bent_);
+    horn.s0 += static_cast<float>(bends * window.first * window.first * kUpToFloat);
   }
   store_->FindNear(scene(), horn, window, &cost_, &near_);
   near_.insert(near_.end(), unfilterable_.begin(), unfilterable_.end());

@@ -75,6 +75,7 @@ class WindowedSearch : public SweepingIndex {
   void ValidatePlaced() const;
   void Drop(std::uint32_t agent);
   void MarkMoved(std::uint32_t agent);
+  PlacedBall Placed(std::uint32_t agent);
   void StartAnew(const PlacementFrame& frame);
   void PlaceEveryAgent();
   void PlaceMoved();
@@ -103,7 +104,8 @@ class WindowedSearch : public SweepingIndex {
   std::vector<std::uint32_t> moved_;
   std::vector<bool> has_moved_;  ///< By agent: in moved_.
   std::vector<std::uint32_t> unfilterable_;
-  float fastest_ = 0;  ///< No horn that is placed has a greater speed.
+  float fastest_ = 0;    ///< No horn that is placed has a greater speed.
+  float most_bent_ = 0;  ///< Nor a greater bend.
 
   /// The first queries since the last placement and what they cost, and the excess of later ones.
   std::uint32_t fresh_ = 0;

@@ -22,15 +22,17 @@ class BoundMargin {
 
   /// Takes off what a kept state may have lost against the one before it. False: there is not
   /// enough left, and all keys that relied on the bound must be computed anew.
-  bool Spend(const motion::ContractCheck& check, const motion::MotionState& before);
+  bool Spend(const motion::ContractCheck& check, const motion::SpaceTimeBound& before);
 
-  /// The bound with the rest of the margin added to its errors; after a jump also with where the
+  /// The bound with the rest of the margin added to its errors, that of the known acceleration to
+  /// what is not known of it; after a jump also with where the
   /// agent may have been since the skew before it.
   motion::SpaceTimeBound Widen(const motion::SpaceTimeBound& bound) const;
 
  private:
   double position_ = 0;  ///< What is left [m].
   double velocity_ = 0;  ///< What is left [m/s].
+  double acceleration_ = 0;  ///< What is left [m/s²]; 0 where none is known or ages.
 };
 
 }  // namespace collision::detection

@@ -12,6 +12,7 @@ motion::MotionLimits Widest(const motion::MotionLimits& a, const motion::MotionL
   motion::MotionLimits widest = b;
   widest.radius = std::max(a.radius, b.radius);
   widest.acceleration_max = std::max(a.acceleration_max, b.acceleration_max);
+  widest.jerk_max = std::max(a.jerk_max, b.jerk_max);
   widest.time_step = std::max(a.time_step, b.time_step);
   widest.angular_acceleration_max =
       motion::WiderAngularBound(a.angular_acceleration_max, b.angular_acceleration_max);
@@ -123,7 +124,7 @@ bool History::JumpsNear(std::size_t i, Instant from, Instant to) const {
 // By our clock the jump may have come anywhere within the skew: the agent moves as before it, or as
 // after it, so that one ball must contain both. With c, u of before and c', u' of after, all of
 // both lies within
-//   u + u' + |c' − c| <= u + u' + |Δc| + |Δv| δ   about c(δ).
+//   u + u' + |c' − c| <= u + u' + |Δc| + |Δv| δ + ½ |Δa| δ²   about c(δ).
 narrow_phase::BodySegment History::OverJump(std::size_t i, Instant from, Instant to) const {
   narrow_phase::BodySegment segment;
   for (std::size_t other = i + 1; other < samples_.size(); ++other) {
@@ -139,6 +140,8 @@ narrow_phase::BodySegment History::OverJump(std::size_t i, Instant from, Instant
   ball.u.c0 = ball.u.c0 + jumped.u.c0 + numeric::Norm(jumped.centre() - ball.centre());
   ball.u.c1 = ball.u.c1 + jumped.u.c1 + numeric::Norm(jumped.velocity - ball.velocity);
   ball.u.c2 = ball.u.c2 + jumped.u.c2;
+  ball.u.c3 = ball.u.c3 + jumped.u.c3;
+  if (ball.bends || jumped.bends) ball.u.c2 = ball.u.c2 + numeric::Norm(jumped.bend - ball.bend);
   segment.ball.radius = before.limits.radius;
   segment.ball.bounds.push_back(ball);
   return segment;

@@ -73,19 +73,21 @@ class History {
   const Sample* Uninterrupted(Instant t) const;
 
   /// Calls `use` with the last bound of each motion since `from`: a jump or a breach begins a new
-  /// one. Radius and acceleration are the greatest so far.
+  /// one. Radius, acceleration and jerk are the greatest so far.
   template <typename Use>
   void ForEachMotion(Instant from, const Use& use) const {
     const std::size_t in_force = InForce(from);
-    double radius = 0, acceleration_max = 0;
+    double radius = 0, acceleration_max = 0, jerk_max = 0;
     for (std::size_t i = in_force < samples_.size() ? in_force : 0; i < samples_.size(); ++i) {
       const motion::MotionLimits& limits = samples_[i].bound.limits;
       radius = std::max(radius, limits.radius);
       acceleration_max = std::max(acceleration_max, limits.acceleration_max);
+      jerk_max = std::max(jerk_max, limits.jerk_max);
       if (i + 1 < samples_.size() && samples_[i + 1].link == Link::kFollows) continue;
       motion::SpaceTimeBound motion = samples_[i].bound;
       motion.limits.radius = radius;
       motion.limits.acceleration_max = acceleration_max;
+      motion.limits.jerk_max = jerk_max;
       use(motion);
     }
   }

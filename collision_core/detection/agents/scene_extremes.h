@@ -17,7 +17,8 @@ class SceneExtremes {
     Instant newest = Instant::Always();
     double speed_max = 0;           ///< |v| and its error [m/s].
     double position_error_max = 0;  ///< [m]
-    double acceleration_max = 0;    ///< [m/s²]
+    double acceleration_max = 0;    ///< What is known of it and what is not, together [m/s²].
+    double jerk_max = 0;            ///< [m/s³]
     double time_step_max = 0;       ///< [s]
 
     void Include(const motion::SpaceTimeBound& bound);

@@ -5,6 +5,8 @@ namespace {
 
 enum Feature {
   kAccelerating,
+  kKnowing,
+  kJerking,
   kCapped,
   kDirected,
   kStepping,
@@ -28,6 +30,8 @@ SceneProfile::Features SceneProfile::Of(const History::Sample& newest) {
   unsigned features = 0;
   const auto set = [&](Feature feature, bool needed) { features |= needed ? 1u << feature : 0; };
   set(kAccelerating, limits.acceleration_max > 0);
+  set(kKnowing, HasKnownAcceleration(state));
+  set(kJerking, limits.jerk_max > 0);
   set(kCapped, limits.speed_max < numeric::kInfinity);
   set(kDirected, !state.direction.isZero());
   set(kStepping, limits.time_step > 0);
@@ -53,6 +57,8 @@ std::vector<std::string> SceneProfile::LeftOut() const {
     if (unused) left_out.emplace_back(what);
   };
   leave_out(counts_[kAccelerating] == 0, "parabolic growth: no agent declares an acceleration");
+  leave_out(counts_[kKnowing] == 0, "curved centres: no agent knows its acceleration");
+  leave_out(counts_[kJerking] == 0, "cubic growth: no agent declares a jerk");
   leave_out(counts_[kCapped] == 0, "speed caps: no agent declares one");
   leave_out(counts_[kDirected] == 0, "directional boxes: no agent declares a thrust direction");
   leave_out(counts_[kStepping] == 0, "integrator step in the bound: no agent declares a time step");

@@ -30,7 +30,7 @@ class SceneProfile {
   std::vector<std::string> LeftOut() const;
 
  private:
-  static constexpr int kFeatures = 11;
+  static constexpr int kFeatures = 13;
 
   void Count(Features features, int change);
 

@@ -40,6 +40,10 @@ void ClearanceFilter::Set(AgentIndex agent, const motion::SpaceTimeBound& bound)
   row.acceleration_max = limits.acceleration_max;
   row.time_step = limits.time_step;
   row.stamp = state.stamp;
+  row.bends = Bends(bound);
+  row.a = state.a_WA;
+  row.jerk_max = limits.jerk_max;
+  row.known_rate = row.bends ? state.a_WA.norm() * (skew_ + 0.5 * limits.time_step) : 0;
 }
 
 bool ClearanceFilter::CertainlyLater(AgentIndex agent, AgentIndex partner, Instant until) const {
@@ -53,11 +57,21 @@ bool ClearanceFilter::CertainlyLater(AgentIndex agent, AgentIndex partner, Insta
     reach += row->reach + row->velocity_error * tau +
              row->acceleration_max * tau * (tau + row->time_step) / 2;
     magnitude += row->magnitude + row->speed * tau;
+    if (row->bends) {
+      const double h = row->time_step, known = row->a.norm() * tau;
+      reach += row->known_rate * tau + row->jerk_max * tau * (tau * tau + 3 * h * (tau + h)) / 6;
+      magnitude += known * (1 + tau);
+    }
   }
-  const Eigen::Vector3d w = b.v - a.v;
-  const Eigen::Vector3d d =
-      (b.p + b.v * Seconds(b.stamp, from)) - (a.p + a.v * Seconds(a.stamp, from));
+  Eigen::Vector3d w = b.v - a.v;
+  const double since_B = Seconds(b.stamp, from), since_A = Seconds(a.stamp, from);
+  Eigen::Vector3d d = (b.p + b.v * since_B) - (a.p + a.v * since_A);
   const double duration = Seconds(from, until);
+  if (a.bends || b.bends) {
+    w += b.a * since_B - a.a * since_A;
+    d += 0.5 * (b.a * (since_B * since_B) - a.a * (since_A * since_A));
+    reach += 0.5 * (b.a - a.a).norm() * duration * duration;
+  }
   const double nearest =
       std::clamp(-d.dot(w) / std::max(w.squaredNorm(), kSquareLeast), 0.0, duration);
   const double margin = kRoundings * (magnitude + reach) + kStampRounding * (w.norm() + 1);

@@ -9,7 +9,9 @@ namespace collision::detection {
 /// Holds a short form of each agent's newest wide bound, side by side in memory.
 ///
 /// The difference of the two centres moves on a segment; the agents stay apart while the segment's
-/// distance from the origin exceeds what both can reach until the end. Some thirty operations lose
+/// distance from the origin exceeds what both can reach until the end. Known accelerations take the
+/// difference off the tangent at the newer state by half their own difference times the square of
+/// the time, which is added to the reach. Some thirty operations lose
 /// far less than 2^-40 of their terms; a stamp is exact to the nanosecond.
 class ClearanceFilter {
  public:
@@ -36,6 +38,10 @@ class ClearanceFilter {
     double acceleration_max;
     double time_step;
     Instant stamp;
+    bool bends;
+    double jerk_max;
+    double known_rate;  ///< |a| (κ + ½ h) [m/s].
+    Eigen::Vector3d a;
   };
 
   double skew_;

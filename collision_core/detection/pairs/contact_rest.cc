@@ -18,6 +18,7 @@ bool MayRest(const RestingPair& pair) {
   if (!begun || !preview.in_contact() || !preview.finished().empty()) return false;
   for (const History::Sample* newest : {&pair.a, &pair.b}) {
     if (newest->has_shape() || newest->bound.state.stamp > preview.at()) return false;
+    if (HasKnownAcceleration(newest->bound.state)) return false;
   }
   return true;
 }

@@ -20,7 +20,8 @@ struct RestingPair {
 /// With an uncertainty u >= 0 no freedom can be certified where the centres' distance |Δc| is at
 /// most the sum r of the radii, and |Δc| is convex in time. So contact holds from the last
 /// evaluated instant up to now if |Δc| < r at both ends, and from now on for as long as the
-/// relative speed takes to use up r − |Δc|.
+/// relative speed takes to use up r − |Δc|. With a known acceleration |Δc| is not convex, and
+/// nothing is certain.
 Instant ContactRestsUntil(const RestingPair& pair, Instant now, double longest);
 
 }  // namespace collision::detection

@@ -16,7 +16,8 @@ NearestInstant NearestOf(const narrow_phase::BallSegment& a, const narrow_phase:
   NearestInstant nearest;
   if (a.bounds.empty() || b.bounds.empty()) return nearest;
   const Eigen::Vector3d d = (b.bounds[0].centre() - a.bounds[0].centre()).middle();
-  const Eigen::Vector3d w = (b.bounds[0].velocity - a.bounds[0].velocity).middle();
+  const Eigen::Vector3d w =
+      (b.bounds[0].VelocityAt(0.5 * duration) - a.bounds[0].VelocityAt(0.5 * duration)).middle();
   const double speed_squared = w.squaredNorm();
   const double bottom = speed_squared > 0 ? -d.dot(w) / speed_squared : 0;
   for (const double delta : {0.0, std::clamp(bottom, 0.0, duration), duration}) {

@@ -15,6 +15,9 @@ constexpr double kResolution = 1e-13;
 /// Steps at most: golden section shrinks its range by 0.62 a step, bisection by half.
 constexpr int kSearchSteps = 80;
 
+/// Parts of a contact that are asked at most, where the path bends; then it counts as interrupted.
+constexpr int kPartsAsked = 512;
+
 /// Rounds in which the choices of bounds may extend each other's freedom.
 constexpr int kRoundsMax = 16;
 
@@ -25,10 +28,11 @@ struct Choice {
   numeric::MovingBall ball;
 
   numeric::Interval Distance(double delta) const {
-    return numeric::Norm(ball.anchor + numeric::Interval(delta) * ball.velocity);
+    return numeric::Norm(ball.anchor + ball.PathTo(delta));
   }
 
-  /// r − u − |Δc|, concave: touching where it is >= 0, for all motions within the bounds.
+  /// r − u − |Δc|: touching where it is >= 0, for all motions within the bounds. Concave unless the
+  /// path bends.
   numeric::Interval Depth(double delta) const {
     return ball.radius - ball.u.At(delta) - Distance(delta);
   }
@@ -42,15 +46,19 @@ std::vector<Choice> ChoicesOf(const BallSegment& a, const BallSegment& b) {
       choices.push_back({{ball_b.centre() - ball_a.centre(), numeric::IntervalVector(),
                           ball_b.velocity - ball_a.velocity, numeric::Interval(a.radius) + b.radius,
                           ball_a.u + ball_b.u}});
+      numeric::MovingBall& ball = choices.back().ball;
+      ball.bends = ball_a.bends || ball_b.bends;
+      if (ball.bends) ball.bend = ball_b.bend - ball_a.bend;
     }
   }
   return choices;
 }
 
-/// Touching is certified on [from, to]; empty if from > to.
+/// Touching is certified on [from, to], or at its ends only; empty if from > to.
 struct Contact {
   double from = 1;
   double to = 0;
+  bool continuous = true;
 };
 
 /// Moves from a certified time towards one that is not, up to the last certified one.
@@ -85,6 +93,28 @@ double NearestTime(const Choice& choice, double duration) {
   return std::clamp(time, 0.0, duration);
 }
 
+/// The same where the path bends: the nearest of a few instants, and then nearer ones.
+double NearestTimeOfBent(const Choice& choice, double duration) {
+  constexpr int kInstants = 16, kHalvings = 40;
+  const Eigen::Vector3d d = choice.ball.anchor.middle(), w = choice.ball.velocity.middle();
+  const Eigen::Vector3d h = choice.ball.bend.middle();
+  const auto distance = [&](double t) { return (d + t * (w + t * h)).norm(); };
+  double best = 0, least = distance(0);
+  const auto try_at = [&](double t) {
+    if (t < 0 || t > duration) return;
+    const double found = distance(t);
+    if (found < least) best = t, least = found;
+  };
+  for (int i = 1; i <= kInstants; ++i) try_at(duration * i / kInstants);
+  double apart = 0.5 * duration / kInstants;
+  for (int i = 0; i < kHalvings; ++i, apart *= 0.5) {
+    const double middle = best;
+    try_at(middle - apart);
+    try_at(middle + apart);
+  }
+  return best;
+}
+
 /// Where the depth is greatest, or any time at which touching is certified.
 double DeepestTime(const Choice& choice, double duration) {
   constexpr double kGolden = 0.6180339887498949;
@@ -107,25 +137,67 @@ double DeepestTime(const Choice& choice, double duration) {
   return 0.5 * (low + high);
 }
 
-/// By concavity all between two certified times is certified.
+/// Whether contact is certified on all of [from, to], where it is at both ends.
+///
+/// A straight path makes the depth concave, and the ends are enough. A path d + w t + h t² leaves
+/// the chord between two of its points, T apart, by |h| (t − from)(to − t) at most; along the chord
+/// the depth is concave. With A and B the depths at the ends and λ the share of the way it is thus at
+/// least (1 − λ) A + λ B − |h| T² λ (1 − λ), which is >= 0 for all λ if √A + √B >= √|h| T. Else the
+/// halves are asked.
+bool HoldsBetween(const Choice& choice, double from, double to) {
+  if (!choice.ball.bends) return true;
+  struct Part {
+    double from, to;
+  };
+  const numeric::Interval root_of_bend = Sqrt(numeric::Norm(choice.ball.bend));
+  const auto root_of_depth = [&choice](double delta) {
+    return Sqrt(numeric::Interval(std::max(0.0, choice.Depth(delta).lower)));
+  };
+  std::vector<Part> parts = {{from, to}};
+  for (int asked = 0; asked < kPartsAsked; ++asked) {
+    if (parts.empty()) return true;
+    const Part part = parts.back();
+    parts.pop_back();
+    const numeric::Interval needed =
+        root_of_bend * (numeric::Interval(part.to) - numeric::Interval(part.from));
+    if ((root_of_depth(part.from) + root_of_depth(part.to) - needed).lower >= 0) continue;
+    const double middle = part.from + 0.5 * (part.to - part.from);
+    if (choice.Depth(middle).lower < 0) return false;
+    parts.push_back({part.from, middle});
+    parts.push_back({middle, part.to});
+  }
+  return false;
+}
+
 Contact ContactOf(const Choice& choice, double duration) {
   const bool at_start = choice.Depth(0).lower >= 0, at_end = choice.Depth(duration).lower >= 0;
-  double inside = at_start ? 0 : at_end ? duration : NearestTime(choice, duration);
+  double inside = at_start ? 0
+                  : at_end ? duration
+                  : choice.ball.bends ? NearestTimeOfBent(choice, duration)
+                                      : NearestTime(choice, duration);
   if (choice.Depth(inside).lower < 0) {
     if (choice.Distance(inside).lower > choice.ball.radius.upper) return {};
     inside = DeepestTime(choice, duration);
     if (choice.Depth(inside).lower < 0) return {};
   }
   const double resolution = kResolution * duration;
-  return {at_start ? 0 : LastCertified(choice, inside, 0, resolution),
-          at_end ? duration : LastCertified(choice, inside, duration, resolution)};
+  Contact contact{at_start ? 0 : LastCertified(choice, inside, 0, resolution),
+                  at_end ? duration : LastCertified(choice, inside, duration, resolution)};
+  contact.continuous = HoldsBetween(choice, contact.from, contact.to);
+  return contact;
 }
 
 void FindContact(const std::vector<Choice>& choices, double duration, SegmentResult& result) {
   std::vector<Contact> contacts;
   for (const Choice& choice : choices) {
     const Contact contact = ContactOf(choice, duration);
-    if (contact.from <= contact.to) contacts.push_back(contact);
+    if (contact.from > contact.to) continue;
+    if (contact.continuous) {
+      contacts.push_back(contact);
+    } else {
+      contacts.push_back({contact.from, contact.from});
+      contacts.push_back({contact.to, contact.to});
+    }
   }
   if (contacts.empty()) return;
   std::sort(contacts.begin(), contacts.end(),
@@ -148,10 +220,11 @@ double FreeFrom(const std::vector<Choice>& choices, double duration, TimeDirecti
     double step = 0;
     for (const Choice& choice : choices) {
       const numeric::MovingBall& ball = choice.ball;
-      const numeric::MovingBall difference{
-          ball.anchor, numeric::Interval(at) * ball.velocity,
-          backward ? numeric::Interval(-1) * ball.velocity : ball.velocity, 0,
-          From(ball.reach(), at, direction)};
+      const numeric::IntervalVector velocity = ball.VelocityAt(at);
+      numeric::MovingBall difference{ball.anchor, ball.PathTo(at),
+                                     backward ? numeric::Interval(-1) * velocity : velocity, 0,
+                                     From(ball.reach(), at, direction)};
+      difference.bends = ball.bends, difference.bend = ball.bend;
       step =
           std::max(step, FirstApproach(difference, backward ? at : numeric::AddUp(duration, -at)));
     }
@@ -215,6 +288,11 @@ std::optional<SegmentResult> QuickBallContact(const BallSegment& a, const BallSe
   // Products of such neither overflow nor lose their error.
   constexpr double kLargest = 0x1p+400, kSmallest = 0x1p-400;
   if (!(duration > 0)) return std::nullopt;
+  for (const BallSegment* of : {&a, &b}) {
+    for (const numeric::MovingBall& ball : of->bounds) {
+      if (ball.bends || ball.u.c3.upper > 0 || ball.u.c3.lower < 0) return std::nullopt;
+    }
+  }
   const double radii = a.radius + b.radius;
   bool touches = false;
   for (const numeric::MovingBall& ball_a : a.bounds) {
@@ -262,7 +340,7 @@ SeparationAt EvaluateBallsAt(const BallSegment& a, const BallSegment& b, double 
   const auto locate = [delta](const BallSegment& ball, Eigen::Vector3d& p, double& error) {
     for (const numeric::MovingBall& bound : ball.bounds) {
       const numeric::IntervalVector centre =
-          bound.centre() + numeric::Interval(delta) * bound.velocity;
+          bound.centre() + bound.PathTo(delta);
       const Eigen::Vector3d middle = centre.middle();
       const double off =
           (bound.u.At(delta) + numeric::Norm(centre - numeric::IntervalVector(middle))).upper;

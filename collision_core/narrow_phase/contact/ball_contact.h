@@ -1,7 +1,8 @@
 // Free, touching or undecided: two balls over one segment of time.
 //
 // Contact. For one choice of bounds r − u_A − u_B − |Δc| is concave in t (u and |Δc| are convex),
-// so certified contact at two instants is contact between them. The deepest instant is found
+// so certified contact at two instants is contact between them; with a known acceleration the path
+// bends, and what is between is certified part by part. The deepest instant is found
 // approximately, then certified; then both ends by bisection, keeping the certified side. The union
 // over the choices is the answer; if its parts do not connect, contact is certified at both ends
 // but not throughout.

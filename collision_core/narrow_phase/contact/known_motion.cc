@@ -9,15 +9,21 @@ namespace {
 // With R the state of the frame, X another one, s their stamps: seen from the frame the prediction
 // from X is at
 //   p_X + v_X (t − s_X) − p_R − v_R (t − s_R)
-//     = (p_X − p_R) + v_R (s_R − s_X) + (v_X − v_R)(t − s_X).
+//     = (p_X − p_R) + v_R (s_R − s_X) + (v_X − v_R)(t − s_X),
+// and ½ a_X (t − s_X)² farther on.
 void SeeFrom(const motion::SpaceTimeBound& frame, const motion::SpaceTimeBound& bound, Instant base,
              numeric::MovingBall* ball) {
   const motion::MotionState &r = frame.state, &x = bound.state;
   const numeric::IntervalVector v_R(r.v_WA);
-  ball->velocity = numeric::IntervalVector(x.v_WA) - v_R;
+  const numeric::IntervalVector w = numeric::IntervalVector(x.v_WA) - v_R;
+  const numeric::Interval since = numeric::SecondsBetween(x.stamp, base);
   ball->anchor = (numeric::IntervalVector(x.p_WA) - numeric::IntervalVector(r.p_WA)) +
                  numeric::SecondsBetween(x.stamp, r.stamp) * v_R;
-  ball->shift = numeric::SecondsBetween(x.stamp, base) * ball->velocity;
+  ball->velocity = w;
+  ball->shift = since * w;
+  if (!ball->bends) return;
+  ball->velocity = w + since * numeric::IntervalVector(x.a_WA);
+  ball->shift = ball->shift + Square(since) * ball->bend;
 }
 
 BodySegment SegmentOf(const KnownMotion& motion, const motion::SpaceTimeBound& frame,

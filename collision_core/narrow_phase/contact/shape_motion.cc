@@ -17,6 +17,7 @@ namespace collision::narrow_phase {
 /// by at most turned c1 h + c2 h² more than at the instant.
 struct ShapeMotion::Drift {
   numeric::Interval along;
+  numeric::Interval bend;  ///< Of the centres' path: it leaves its tangent by bend h².
   numeric::Interval spin_sum, spin_most;
   numeric::Cubic translation;
   numeric::Interval turned1_sum, turned2_sum, turned1_most, turned2_most;
@@ -27,6 +28,7 @@ struct ShapeMotion::Drift {
 struct ShapeMotion::Departure {
   enum class Path { kTangent, kFullTurns };
   double at;
+  double span;  ///< How far it goes [s].
   TimeDirection direction;
   Path path;
 };
@@ -58,6 +60,11 @@ SweptPose::Growth GrowthOf(const motion::MovingRotation& turn, const ShapeMotion
             : numeric::Interval(0);
   return {chord, std::max(0.0, angle.c1.upper),
           std::max(0.0, (numeric::Max(0, angle.c2) + bend).upper)};
+}
+
+// What the path of B's centre, seen from A's, leaves its tangent by: this times h² [m/s²].
+numeric::Interval BendOf(const numeric::MovingBall& a, const numeric::MovingBall& b) {
+  return a.bends || b.bends ? numeric::Norm(b.bend - a.bend) : numeric::Interval(0);
 }
 
 // Half of the acceleration of the point that turning moves the most [m/s²].
@@ -163,7 +170,8 @@ SweptPose ShapeMotion::SweptFrom(const Departure& from, BoundChoice choice) cons
   swept.pose = PoseAt(a_, b_, choice, from.at);
   const numeric::MovingBall& ball_a = a_.ball.bounds[choice.of_a];
   const numeric::MovingBall& ball_b = b_.ball.bounds[choice.of_b];
-  const numeric::IntervalVector velocity = ball_b.velocity - ball_a.velocity;
+  const numeric::IntervalVector velocity =
+      ball_b.VelocityAt(from.at) - ball_a.VelocityAt(from.at);
   const double sign = from.direction == TimeDirection::kBackward ? -1 : 1;
   const auto seen = [&](const Eigen::Vector3d& v) {
     return Eigen::Vector3d(sign * swept.pose.R_WA.transpose() * v);
@@ -179,6 +187,12 @@ SweptPose ShapeMotion::SweptFrom(const Departure& from, BoundChoice choice) cons
       numeric::MultiplyUp(2 * swept.pose.matrix_error + kTurnRounding, fastest.upper);
   const numeric::Cubic u = From(ball_a.u + ball_b.u, from.at, from.direction);
   swept.translation = {u.c0.upper, u.c1.upper, std::max(0.0, u.c2.upper)};
+  if (ball_a.bends || ball_b.bends || u.c3.upper > 0) {
+    // Within the span a cube is at most the span times a square.
+    const numeric::Interval cube = numeric::Interval(std::max(0.0, u.c3.upper)) * from.span;
+    swept.translation.c2 =
+        (swept.translation.c2 + cube + BendOf(ball_a, ball_b)).upper;
+  }
   if (a_.shape) swept.turning_A = GrowthOf(a_.turns[choice.of_a], from, swept.pose.chord_A);
   if (b_.shape) swept.turning_B = GrowthOf(b_.turns[choice.of_b], from, swept.pose.chord_B);
   return swept;
@@ -190,14 +204,16 @@ ShapeMotion::Sweep ShapeMotion::SweepFrom(double at, double span, TimeDirection 
   const BoundChoice choice = ChoiceFor(at, span, direction);
   if (!choice.certain) return sweep;
   sweep.known = true;
-  const SweptPose swept = SweptFrom({at, direction, Departure::Path::kTangent}, choice);
+  const SweptPose swept = SweptFrom({at, span, direction, Departure::Path::kTangent}, choice);
   sweep.pose = swept.pose;
   sweep.touch = LowerBoundOfImpact({surface_a_, surface_b_, swept}, span, &work_, detail);
   if (sweep.touch.resolved) {
     const double h = sweep.touch.seconds;
-    const double bend = BendOf(a_, choice.of_a) + BendOf(b_, choice.of_b);
+    const double path =
+        BendOf(a_.ball.bounds[choice.of_a], b_.ball.bounds[choice.of_b]).upper;
+    const double bend = BendOf(a_, choice.of_a) + BendOf(b_, choice.of_b) + path;
     const double unknown =
-        swept.translation.c0 + h * (swept.translation.c1 + h * swept.translation.c2);
+        swept.translation.c0 + h * (swept.translation.c1 + h * (swept.translation.c2 - path));
     sweep.final =
         bend * h * h <= std::max(unknown, kFineBend * (surface_a_.reach() + surface_b_.reach()));
   }
@@ -234,7 +250,7 @@ double ShapeMotion::RingFreedom(double at, double left, TimeDirection direction,
   if (!choice.certain) return 0;
   const auto wanted = static_cast<double>(units), most = static_cast<double>(work_.left());
   const WorkShare share(wanted < most ? wanted / most : 1, &work_);
-  SweptPose swept = SweptFrom({at, direction, Departure::Path::kFullTurns}, choice);
+  SweptPose swept = SweptFrom({at, span, direction, Departure::Path::kFullTurns}, choice);
   double free = SweptRingBound({surface_a_, surface_b_, swept}, span, &work_);
   // A body that turns much more slowly than the other may be better taken for one that does not,
   // for a while: what its turning moves a point by counts as unknown.
@@ -272,7 +288,8 @@ ShapeMotion::Drift ShapeMotion::DriftFrom(const PoseQuery& query, TimeDirection 
   const Turning of_a = TurningOf(a_, query.choice.of_a, query.at, direction);
   const Turning of_b = TurningOf(b_, query.choice.of_b, query.at, direction);
   Drift drift;
-  drift.along = numeric::Norm(ball_b.velocity - ball_a.velocity);
+  drift.along = numeric::Norm(ball_b.VelocityAt(query.at) - ball_a.VelocityAt(query.at));
+  drift.bend = BendOf(ball_a, ball_b);
   drift.spin_sum = of_a.spin + of_b.spin;
   drift.spin_most = numeric::Max(of_a.spin, of_b.spin);
   drift.translation = From(ball_a.u + ball_b.u, query.at, direction);
@@ -293,8 +310,9 @@ double ShapeMotion::ContactStep(const PoseQuery& query, TimeDirection direction)
   if (query.bracket.CertainlyOverlapping(query.pose.translation)) {
     const numeric::Interval gap = numeric::Interval(-query.bracket.upper) - d.translation.c0;
     const numeric::Interval closing = d.along + d.spin_sum + d.translation.c1 + d.turned1_sum;
-    const numeric::Interval growth = d.translation.c2 + d.turned2_sum;
-    step = numeric::FirstZero(gap.lower, closing.upper, std::max(0.0, growth.upper));
+    const numeric::Interval growth = d.translation.c2 + d.turned2_sum + d.bend;
+    step = numeric::FirstZero(gap.lower, closing.upper, std::max(0.0, growth.upper),
+                              std::max(0.0, d.translation.c3.upper));
   }
   if (query.bracket.CertainlyCrossing(query.pose.translation)) {
     const numeric::Interval half = 0.5;
@@ -302,9 +320,10 @@ double ShapeMotion::ContactStep(const PoseQuery& query, TimeDirection direction)
         numeric::Interval(query.bracket.crossing_margin) - half * d.translation.c0;
     const numeric::Interval closing =
         half * (d.along + d.translation.c1) + d.spin_most + d.turned1_most;
-    const numeric::Interval growth = half * d.translation.c2 + d.turned2_most;
-    step =
-        std::max(step, numeric::FirstZero(gap.lower, closing.upper, std::max(0.0, growth.upper)));
+    const numeric::Interval growth = half * (d.translation.c2 + d.bend) + d.turned2_most;
+    step = std::max(
+        step, numeric::FirstZero(gap.lower, closing.upper, std::max(0.0, growth.upper),
+                                 std::max(0.0, (half * d.translation.c3).upper)));
   }
   return step;
 }

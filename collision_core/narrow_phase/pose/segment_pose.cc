@@ -65,7 +65,7 @@ std::size_t LeastUncertain(const BodySegment& body, double delta) {
 }
 
 numeric::IntervalVector CentreAt(const numeric::MovingBall& ball, double delta) {
-  return ball.centre() + numeric::Interval(delta) * ball.velocity;
+  return ball.centre() + ball.PathTo(delta);
 }
 
 double Width(const numeric::IntervalVector& v, const Eigen::Vector3d& middle) {
@@ -85,8 +85,11 @@ RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choi
   const Orientation of_a = OrientationOf(a, choice.of_a, delta);
   const Orientation of_b = OrientationOf(b, choice.of_b, delta);
   // Positions are subtracted first: far from the origin nothing is lost but what the states lost.
-  const numeric::IntervalVector d = (ball_b.centre() - ball_a.centre()) +
-                                    numeric::Interval(delta) * (ball_b.velocity - ball_a.velocity);
+  numeric::IntervalVector d = (ball_b.centre() - ball_a.centre()) +
+                              numeric::Interval(delta) * (ball_b.velocity - ball_a.velocity);
+  if (ball_a.bends || ball_b.bends) {
+    d = d + Square(numeric::Interval(delta)) * (ball_b.bend - ball_a.bend);
+  }
   const Eigen::Vector3d middle = d.middle();
   const double length = numeric::Norm(numeric::IntervalVector(middle)).upper;
 

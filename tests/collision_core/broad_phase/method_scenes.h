@@ -197,6 +197,31 @@ inline const NamedScene kMethodScenes[] = {
      [](Random* r) {
        return Several(40, 90, r, [&](int) { return BoundIn(2e-11, 1e-12, 1e-12, 1e-12, r); });
      }},
+    {"known accelerations", true,
+     [](Random* r) {
+       return Several(40, 90, r, [&](int) {
+         motion::SpaceTimeBound bound = BoundIn(30, 0.5, 5, r->Uniform(0, 0.5), r);
+         bound.state.a_WA = r->LogUniform(1e-2, 10) * r->UnitVector();
+         return bound;
+       });
+     }},
+    {"known and changing accelerations", false,
+     [](Random* r) {
+       return Several(40, 90, r, [&](int i) {
+         motion::SpaceTimeBound bound = BoundIn(200, 0.5, 5, 0, r);
+         if (i % 3 != 0) bound.state.a_WA = r->LogUniform(1e-2, 10) * r->UnitVector();
+         if (i % 4 != 0) bound.limits.jerk_max = r->LogUniform(1e-3, 1);
+         return bound;
+       });
+     }},
+    {"all fall together", true,
+     [](Random* r) {
+       return Several(40, 90, r, [&](int) {
+         motion::SpaceTimeBound bound = BoundIn(100, 0.5, 5, 0.01, r);
+         bound.state.a_WA = {0, 0, -9.81};
+         return bound;
+       });
+     }},
     {"other stamps", false,
      [](Random* r) {
        return Several(10, 60, r, [&](int) {

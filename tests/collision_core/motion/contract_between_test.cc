@@ -67,6 +67,37 @@ Flight RandomFlight(Random* random, int pieces_max) {
   return flight;
 }
 
+// Goal:   with a known acceleration and jerk: no honest motion is a breach, whatever way the unknown
+//         part turns; and one that left the known path and came back to it is, which neither end
+//         shows.
+// Method: pieces of constant unknown acceleration of D; there and back by 1 m within 2 s, D = 0.1.
+TEST(ContractBetween, KnownMotions) {
+  Random random(617);
+  for (int i = 0; i < 5000; ++i) {
+    Flight flight = RandomFlight(&random, 5);
+    Pair& pair = flight.pair;
+    const double T = pair.Seconds();
+    const Vector3d known = random.LogUniform(1e-3, 1e2) * random.UnitVector();
+    pair.before.state.a_WA = pair.next.a_WA = known;
+    pair.next.p_WA += 0.5 * T * T * known;
+    pair.next.v_WA += T * known;
+    if (random.Chance(0.5)) pair.before.limits.jerk_max = random.LogUniform(1e-6, 1);
+    ASSERT_FALSE(pair.IsBreach()) << i << ": " << pair.BetweenExcess();
+  }
+  Pair pair;
+  pair.before.state.a_WA = {0, 0, -9.8};
+  pair.before.limits.acceleration_max = 0.1;
+  pair.next = pair.before.state;
+  pair.next.stamp = Instant::FromNanoseconds(2 * kSecond);
+  pair.next.p_WA = {0, 0, -19.6};
+  pair.next.v_WA = {0, 0, -19.6};
+  EXPECT_EQ(pair.BetweenExcess(), 0);
+  pair.before.state.v_WA = {0.19, 0, 0};
+  pair.next.v_WA.x() = 0.19;
+  EXPECT_GT(pair.BetweenExcess(), 0.01);
+  EXPECT_TRUE(AreApart(pair));
+}
+
 // Goal:   full thrust, whatever way it turns, is no breach; under 1 % less it is one, where it
 //         turns once and on a line: then both balls touch just at the turn.
 TEST(ContractBetween, FullThrustIsKeptAndMoreIsNot) {

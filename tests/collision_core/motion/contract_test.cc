@@ -186,5 +186,95 @@ TEST(Contract, ALaterExpiryWidens) {
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kKept);
 }
 
+/// What an owner knows, and how much of it may be wrong.
+SpaceTimeBound Falling(double acceleration_max, double jerk_max) {
+  SpaceTimeBound bound = Resting(acceleration_max);
+  bound.state.v_WA = {3, 0, 0};
+  bound.state.a_WA = {0, 0, -9.8};
+  bound.limits.jerk_max = jerk_max;
+  return bound;
+}
+
+MotionState AfterFalling(const SpaceTimeBound& before, double s) {
+  MotionState next = before.state;
+  next.stamp = Instant::FromNanoseconds(before.state.stamp.nanoseconds() + std::llround(s * 1e9));
+  next.p_WA += s * next.v_WA + 0.5 * s * s * next.a_WA;
+  next.v_WA += s * next.a_WA;
+  return next;
+}
+
+// Goal:   who falls as it said is kept although it accelerates; who does not is in breach, each of
+//         the three quantities alone, when it exceeds the bound by 1e-6 of it.
+// Method: D = 0.5, J = 0.3, s = 2: ½ D s² + ⅙ J s³ = 1.4, D s + ½ J s² = 1.6, 2 D + J s = 1.6.
+TEST(ContractOfKnownMotion, BreachesAreFoundFromBothSides) {
+  const SpaceTimeBound before = Falling(0.5, 0.3);
+  const auto check = [&](double p, double v, double a) {
+    MotionState next = AfterFalling(before, 2);
+    next.p_WA.y() += p, next.v_WA.y() += v, next.a_WA.y() += a;
+    return CheckContract(before, next);
+  };
+  EXPECT_EQ(check(0, 0, 0).verdict, ContractVerdict::kKept);
+  EXPECT_EQ(check(1.4 * (1 - 1e-6), 1.6 * (1 - 1e-6), 0.6 * (1 - 1e-6)).verdict,
+            ContractVerdict::kKept);
+  EXPECT_NEAR(check(1.4 * (1 + 1e-6), 1.5, 0).position_excess, 1.4e-6, 1e-8);
+  EXPECT_NEAR(check(1.3, 1.6 * (1 + 1e-6), 0).velocity_excess, 1.6e-6, 1e-8);
+  EXPECT_NEAR(check(0, 0, 1.6 * (1 + 1e-6)).acceleration_excess, 1.6e-6, 1e-8);
+  EXPECT_EQ(check(0, 0, 1.6 * (1 + 1e-6)).verdict, ContractVerdict::kBreached);
+  // What D explains beyond J s is a new guess: the horn bends another way.
+  EXPECT_EQ(check(0, 0, 0.6 * (1 + 1e-6)).verdict, ContractVerdict::kWidened);
+  EXPECT_EQ(check(0, 0, 1.6 * (1 - 1e-6)).verdict, ContractVerdict::kWidened);
+}
+
+// Goal:   a known acceleration that is wrong is found: gravity that does not pull.
+TEST(ContractOfKnownMotion, AWrongAccelerationIsABreach) {
+  const SpaceTimeBound before = Falling(0, 0);
+  MotionState next = After(before, kSecond);
+  const ContractCheck check = CheckContract(before, next);
+  EXPECT_EQ(check.verdict, ContractVerdict::kBreached);
+  EXPECT_NEAR(check.position_excess, 4.9, 1e-6);
+  EXPECT_NEAR(check.velocity_excess, 9.8, 1e-6);
+}
+
+// Goal:   a motion that uses up D and J is kept by every integrator, near and far, and the new horn
+//         lies inside the old one grown by the drift, exactly.
+// Method: the unknown part is D + J t along a random direction; the next state's a is that of the
+//         old one and what has aged, along it too.
+TEST(ContractOfKnownMotion, HonestMotionsAreKeptAndNest) {
+  Random random(58);
+  for (int i = 0; i < 3000; ++i) {
+    SpaceTimeBound before = Resting(random.Chance(0.3) ? 0 : random.LogUniform(1e-3, 10));
+    before.limits.jerk_max = random.Chance(0.2) ? 0 : random.LogUniform(1e-3, 10);
+    before.state.p_WA = random.LogUniform(1e-3, 1e7) * random.UnitVector();
+    before.state.v_WA = random.LogUniform(1e-3, 1e4) * random.UnitVector();
+    before.state.a_WA = std::ldexp(1.0, static_cast<int>(random.Below(8)) - 6) *
+                        Eigen::Vector3d(2, -3, 6);
+    const double s = random.LogUniform(1e-3, 10);
+    const double D = before.limits.acceleration_max, J = before.limits.jerk_max;
+    const Eigen::Vector3d u = (1 - 1e-12) * random.UnitVector();
+    MotionState next = AfterFalling(before, s);
+    next.p_WA += (0.5 * D + J * s / 6) * s * s * u;
+    next.v_WA += (D + 0.5 * J * s) * s * u;
+    next.a_WA += J * s * u;
+    const ContractCheck check = CheckContract(before, next);
+    ASSERT_EQ(check.verdict, ContractVerdict::kKept)
+        << i << ": " << check.position_excess << ' ' << check.velocity_excess << ' '
+        << check.acceleration_excess << ' ' << check.between_excess;
+    for (const double later : {0.0, 1.0, 1000.0}) {
+      const Instant t = numeric::AddRoundedDown(next.stamp, later);
+      const ExactHorn inner({next, before.limits}, t), outer(before, t);
+      Exact square = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        square += (inner.p[axis] - outer.p[axis]) * (inner.p[axis] - outer.p[axis]);
+      }
+      const Exact x(later);
+      const Exact room = outer.u[0] - inner.u[0] + Exact(check.position_drift) +
+                         Exact(check.velocity_drift) * x +
+                         Exact(check.acceleration_drift) * x * x / 2;
+      ASSERT_GE(room, 0) << i;
+      ASSERT_LE(square, room * room) << i << ' ' << later;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace collision::motion

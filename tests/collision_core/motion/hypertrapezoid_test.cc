@@ -21,6 +21,11 @@ SpaceTimeBound AnyBound(Random& random, double range) {
   bound.limits.radius = random.Uniform(0, 1);
   bound.limits.acceleration_max = random.Chance(0.2) ? 0 : random.LogUniform(1e-3, 1e2);
   bound.limits.time_step = random.Chance(0.5) ? 0 : 0.125;
+  if (random.Chance(0.4)) {
+    bound.state.a_WA = std::ldexp(1.0, static_cast<int>(random.Below(12)) - 8) *
+                       Eigen::Vector3d(2, -3, 6);
+  }
+  if (random.Chance(0.3)) bound.limits.jerk_max = random.LogUniform(1e-3, 1e2);
   return bound;
 }
 
@@ -54,8 +59,9 @@ TEST(Hypertrapezoid, ContainsTheBoxAndFitsAtTheEnds) {
         ASSERT_LE(Chord(h.lower_start[axis], h.lower_end[axis], fraction), lower);
         ASSERT_GE(Chord(h.upper_start[axis], h.upper_end[axis], fraction), upper);
         if (sample > 1) continue;
-        const double scale = bound.state.p_WA.norm() + 1e4;
-        const Exact slack(8 * 0x1p-52 * scale);
+        const double scale = bound.state.p_WA.norm() + 1e5;
+        const double bulge = 0.125 * bound.state.a_WA.norm() * 25;
+        const Exact slack(8 * 0x1p-52 * scale + bulge);
         ASSERT_GE(Chord(h.lower_start[axis], h.lower_end[axis], fraction), lower - slack);
         ASSERT_LE(Chord(h.upper_start[axis], h.upper_end[axis], fraction), upper + slack);
       }

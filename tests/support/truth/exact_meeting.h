@@ -244,6 +244,8 @@ class ExactMeeting {
     }
   }
 
+  static constexpr int kDepthOfProof = 80, kDepthOfMeeting = 40;
+
   struct BoxTests {
     Dyadic start;
     std::vector<Timeline> conditions;  ///< All must be >= 0.
@@ -329,8 +331,8 @@ class ExactMeeting {
   }
 
   /// Are all conditions >= 0 somewhere in [lo, hi), or [lo, hi]? If so then first at lo or at a
-  /// root of one of them. Of cubics a closed stretch is only asked at its ends: there a meeting is
-  /// to be shown, and a meeting that is over at the end would be missed, which nothing here needs.
+  /// root of one of them. With cubics: is it not proved that they are not? A closed stretch, where a
+  /// meeting is to be shown, is halved less often: what misses by 2^-kDepthOfMeeting counts as one.
   static bool MeetWithin(const std::vector<DyadicPolynomial>& conditions, const Dyadic& lo,
                          const std::optional<Dyadic>& hi, bool closed) {
     const auto all_at = [&conditions](const Dyadic& x) {
@@ -340,8 +342,8 @@ class ExactMeeting {
     if (all_at(lo) || (closed && all_at(*hi))) return true;
     const bool cubic = std::any_of(conditions.begin(), conditions.end(),
                                    [](const DyadicPolynomial& q) { return q[3].Sign() != 0; });
-    if (cubic) return !closed && !(hi ? OneIsNegative(conditions, lo, *hi)
-                                      : OneIsNegativeFrom(conditions, lo));
+    if (cubic && !hi) return !OneIsNegativeFrom(conditions, lo);
+    if (cubic) return !OneIsNegative(conditions, lo, *hi, closed ? kDepthOfMeeting : kDepthOfProof);
     for (const DyadicPolynomial& q : conditions) {
       for (const QuadraticRoot& root : RootsOf(q)) {
         if (root.SignOf({-lo, 1.0, {}}) <= 0) continue;

@@ -193,7 +193,7 @@ inline bool PositiveByBernstein(const DyadicPolynomial& p, const Dyadic& lo,
 /// Is at every x in [lo, hi) one of these below 0? Proved on ever smaller stretches; false may also
 /// mean that 2^-depth of the whole was not small enough.
 inline bool OneIsNegative(const std::vector<DyadicPolynomial>& all, const Dyadic& lo,
-                          const Dyadic& hi, int depth = 80) {
+                          const Dyadic& hi, int depth) {
   for (const DyadicPolynomial& p : all) {
     const std::vector<Dyadic> b = BernsteinOf(Shifted(p, lo), hi - lo);
     if (std::all_of(b.begin(), b.end() - 1, [](const Dyadic& x) { return x.Sign() < 0; }) &&
@@ -213,7 +213,7 @@ inline bool OneIsNegative(const std::vector<DyadicPolynomial>& all, const Dyadic
 /// The same without an end: there one that stays below 0 is looked for beyond 2^50.
 inline bool OneIsNegativeFrom(const std::vector<DyadicPolynomial>& all, const Dyadic& lo) {
   const Dyadic far = lo.Magnitude() + Dyadic(0x1p50);
-  return OneIsNegative(all, lo, far) &&
+  return OneIsNegative(all, lo, far, 100) &&
          std::any_of(all.begin(), all.end(), [&](const DyadicPolynomial& p) {
            return PositiveByBernstein(Dyadic(-1.0) * p, far, std::nullopt, 0);
          });

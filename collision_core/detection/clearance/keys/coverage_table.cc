@@ -15,6 +15,12 @@ constexpr std::uint32_t kSaturatedTimes = 64;
 /// Beyond announce_until by this much [s], so that it is not due before that time has passed.
 constexpr double kAfterShare = 1e-9;
 
+/// What an agent may do beyond what is known of it, a second after a state [m/s²].
+double UnknownAcceleration(const motion::MotionLimits& limits) {
+  constexpr double kSecond = 1;
+  return limits.acceleration_max + limits.jerk_max * kSecond;
+}
+
 }  // namespace
 
 void CoverageTable::AddAgent(AgentIndex agent) {
@@ -54,7 +60,7 @@ void CoverageTable::Renew(AgentIndex agent, Instant from, ClearanceCause cause) 
   if (record.renewed_cause != ClearanceCause::kBreach) record.renewed_cause = cause;
   lowerable_.Remove(agent);
   voided_.Insert(agent);
-  tiers_.Set(agent, context_.agents[agent].bound().limits.acceleration_max);
+  tiers_.Set(agent, UnknownAcceleration(context_.agents[agent].bound().limits));
   if (!IsSaturated(agent)) record.keys.SetAll(std::min(record.keys.earliest(), from));
   KeysChanged(agent);
 }

@@ -19,16 +19,25 @@ constexpr double kReachMax = 1e300;
 /// two bounds that never move are not compared.
 constexpr double kNotAtRest = 1e-30;
 
-/// |v| t + M t (t + h) is more than the path that either direction of the horn allows, with room
-/// for the rounding of all this.
-double Path(double speed, double acceleration_max, double time_step, double t) {
-  return kPathSlack * (speed + acceleration_max * (t + time_step)) * t;
-}
+/// |v| t + A t (t + h), with A = M + J (t + h) the greatest acceleration until then, what is known
+/// of it included, is more than the path that either direction of the horn allows, with room for
+/// the rounding of all this.
+struct Mover {
+  double speed, acceleration_max, jerk_max, time_step;
+
+  double Path(double t) const {
+    const double fastest = acceleration_max + jerk_max * (t + time_step);
+    return kPathSlack * (speed + fastest * (t + time_step)) * t;
+  }
+};
 
 /// The path of one agent from its newest state.
 double PathOf(const motion::SpaceTimeBound& bound, double t) {
-  return Path(bound.state.v_WA.norm() + bound.state.velocity_error, bound.limits.acceleration_max,
-              bound.limits.time_step, t);
+  const motion::MotionLimits& limits = bound.limits;
+  return Mover{bound.state.v_WA.norm() + bound.state.velocity_error,
+               limits.acceleration_max + bound.state.a_WA.norm(), limits.jerk_max,
+               limits.time_step}
+      .Path(t);
 }
 
 /// In seconds, with twice the skew: once for each clock.
@@ -82,8 +91,8 @@ void UncoveredSearch::FindAround(const ClearanceQuery& query, const motion::Spac
   const AgentTable& agents = context_.agents;
   const SceneExtremes::Bounds& scene = agents.extremes();
   const double others_time = Span(from, scene.newest, agents.skew());
-  const double others = 2 * scene.position_error_max + Path(scene.speed_max, scene.acceleration_max,
-                                                            scene.time_step_max, others_time);
+  const Mover any{scene.speed_max, scene.acceleration_max, scene.jerk_max, scene.time_step_max};
+  const double others = 2 * scene.position_error_max + any.Path(others_time);
   const double own = OwnReach(motion, from);
   motion::SpaceTimeBound around;
   around.state.stamp = from;

@@ -35,12 +35,13 @@ struct Motion {
   Eigen::Vector3d p[kPieces + 1], v[kPieces + 1], a[kPieces];
 
   Motion(Random& random, const Eigen::Vector3d& p0, const Eigen::Vector3d& v0,
-         double acceleration_max, double length)
+         double acceleration_max, double length,
+         const Eigen::Vector3d& known = Eigen::Vector3d::Zero())
       : duration(length) {
     const double dt = duration / kPieces;
     p[0] = p0, v[0] = v0;
     for (int i = 0; i < kPieces; ++i) {
-      a[i] = acceleration_max * (1 - 1e-9) * random.UnitVector();
+      a[i] = known + acceleration_max * (1 - 1e-9) * random.UnitVector();
       p[i + 1] = p[i] + dt * v[i] + 0.5 * dt * dt * a[i];
       v[i + 1] = v[i] + dt * a[i];
     }
@@ -80,22 +81,95 @@ TEST(EvaluateBallSegment, IridiumAndCosmos) {
   EXPECT_TRUE(verdict.contact_continuous);
 }
 
+// Goal:   with gravity known the brackets are fifty times as narrow: the known accelerations of both
+//         nearly cancel, and little is left unknown.
+// Method: as above; gravity at the states, as −μ p / |p|³, with J = 9e-3 m/s³, and D = 0.05 m/s² for
+//         what the ellipsoid of the Earth adds.
+TEST(EvaluateBallSegment, IridiumAndCosmosUnderKnownGravity) {
+  const auto bound = [](std::int64_t s, Eigen::Vector3d p, Eigen::Vector3d v, double known) {
+    motion::SpaceTimeBound of = Bound(s * kSecond, p, v, 500, known > 0 ? 0.05 : 7.9);
+    const double r = p.norm();
+    of.state.a_WA = -known * 3.986004418e14 / (r * r * r) * p;
+    of.limits.jerk_max = known * 9e-3;
+    return of;
+  };
+  const auto width = [&](double known) {
+    const BallSegment iridium =
+        Between(bound(599, {-1461167.894963, 1588343.591612, 6813639.879114},
+                      {-6997.162692641, -2452.373365010, -926.768268524}, known),
+                bound(600, {-1468164.258886, 1585890.355353, 6812709.402926},
+                      {-6995.570957019, -2454.098181711, -934.191656532}, known));
+    const BallSegment cosmos =
+        Between(bound(599, {-1469851.386510, 1590661.925891, 6811269.616099},
+                      {3587.992786106, -6164.283214372, 2209.219051206}, known),
+                bound(600, {-1466262.594448, 1584496.775750, 6813475.124589},
+                      {3589.588165870, -6166.008478261, 2201.796662406}, known));
+    const SegmentResult verdict = EvaluateBallSegment(iridium, cosmos, 1);
+    constexpr double kBegin = 0.734303, kEnd = 0.857266, kGivenTo = 0.5e-6;
+    EXPECT_LE(verdict.free_until, kBegin + kGivenTo);
+    EXPECT_GE(verdict.contact_from, kBegin - kGivenTo);
+    EXPECT_GE(verdict.free_from, kEnd - kGivenTo);
+    EXPECT_LE(verdict.contact_to, kEnd + kGivenTo);
+    EXPECT_TRUE(verdict.contact_continuous);
+    return (verdict.contact_from - verdict.free_until) + (verdict.free_from - verdict.contact_to);
+  };
+  EXPECT_LT(width(1), 0.02 * width(0));
+}
+
+// Goal:   a ball that falls through one that stands: contact is certified throughout although the
+//         path bends, as narrowly as for one that keeps its velocity.
+TEST(EvaluateBallSegment, AFallIsCertifiedThroughout) {
+  motion::SpaceTimeBound stands = Bound(0, {0, 0, 0}, {0, 0, 0}, 0.5, 0);
+  motion::SpaceTimeBound falls = Bound(0, {0, 0, 5}, {0, 0, 0}, 0.5, 0);
+  falls.state.a_WA = {0, 0, -9.8};
+  const BallSegment of_A = {0.5, {ForwardBall(stands, Instant())}};
+  const BallSegment of_B = {0.5, {ForwardBall(falls, Instant())}};
+  const SegmentResult verdict = EvaluateBallSegment(of_A, of_B, 2);
+  const double begin = std::sqrt(8 / 9.8), end = std::sqrt(12 / 9.8);
+  EXPECT_LE(verdict.free_until, begin);
+  EXPECT_GE(verdict.contact_from, begin);
+  EXPECT_LT(verdict.contact_from - verdict.free_until, 1e-9);
+  EXPECT_GE(verdict.free_from, end);
+  EXPECT_LE(verdict.contact_to, end);
+  EXPECT_LT(verdict.free_from - verdict.contact_to, 1e-9);
+  EXPECT_TRUE(verdict.contact_continuous);
+}
+
+// Goal:   a path that leaves the contact and comes back is not certified throughout.
+// Method: thrown up through a ball's edge: inside at both ends of the second, 0.4 m out between.
+TEST(EvaluateBallSegment, ABentPathThatLeavesIsSeen) {
+  motion::SpaceTimeBound stands = Bound(0, {0, 0, 0}, {0, 0, 0}, 0.5, 0);
+  motion::SpaceTimeBound thrown = Bound(0, {0, 0, 0.9}, {0, 0, 2}, 0.5, 0);
+  thrown.state.a_WA = {0, 0, -4};
+  const BallSegment of_A = {0.5, {ForwardBall(stands, Instant())}};
+  const BallSegment of_B = {0.5, {ForwardBall(thrown, Instant())}};
+  const SegmentResult verdict = EvaluateBallSegment(of_A, of_B, 1);
+  EXPECT_EQ(verdict.contact_from, 0);
+  EXPECT_EQ(verdict.contact_to, 1);
+  EXPECT_FALSE(verdict.contact_continuous);
+}
+
 // Goal:   no claim is false for any motion, and claims are made: contact, freedom before, freedom
 //         after.
-// Method: random pieces of full acceleration between exact states; the verdict against the sampled
-//         motion.
+// Method: random pieces of full acceleration between exact states, half of them around one that is
+//         known; the verdict against the sampled motion.
 TEST(EvaluateBallSegment, ClaimsHoldForRandomMotions) {
   Random random(71);
   int contacts = 0, frees = 0, partly = 0;
   for (int i = 0; i < 5000; ++i) {
     const double T = random.LogUniform(0.1, 2),
                  M = random.Chance(0.2) ? 0 : random.LogUniform(0.01, 2);
-    const auto motion = [&] {
-      return Motion(random, 3 * random.Uniform(0, 1) * random.UnitVector(),
-                    random.LogUniform(0.1, 10) * random.UnitVector(), M, T);
+    const auto known = [&]() -> Eigen::Vector3d {
+      if (random.Chance(0.5)) return {0, 0, 0};
+      return random.LogUniform(0.1, 10) * random.UnitVector();
     };
-    const Motion a = motion(), b = motion();
-    const auto segment = [&](const Motion& m, double radius) {
+    const Eigen::Vector3d known_A = known(), known_B = known();
+    const auto motion = [&](const Eigen::Vector3d& of) {
+      return Motion(random, 3 * random.Uniform(0, 1) * random.UnitVector(),
+                    random.LogUniform(0.1, 10) * random.UnitVector(), M, T, of);
+    };
+    const Motion a = motion(known_A), b = motion(known_B);
+    const auto segment = [&](const Motion& m, double radius, const Eigen::Vector3d& of) {
       const auto ns = static_cast<std::int64_t>(std::ceil(T * 1e9));
       motion::SpaceTimeBound from = Bound(0, m.p[0], m.v[0], radius, M);
       motion::SpaceTimeBound to =
@@ -104,12 +178,13 @@ TEST(EvaluateBallSegment, ClaimsHoldForRandomMotions) {
       for (motion::SpaceTimeBound* bound : {&from, &to}) {
         bound->state.position_error = 1e-12;
         bound->state.velocity_error = 1e-8;
+        bound->state.a_WA = of;
       }
       return Between(from, to);
     };
     const double radii[2] = {random.Uniform(0, 1), random.Uniform(0, 1)};
     const SegmentResult verdict =
-        EvaluateBallSegment(segment(a, radii[0]), segment(b, radii[1]), T);
+        EvaluateBallSegment(segment(a, radii[0], known_A), segment(b, radii[1], known_B), T);
     contacts += verdict.contact_from <= verdict.contact_to;
     frees += verdict.free_until == numeric::kInfinity;
     partly += verdict.free_until > 0 && verdict.contact_from <= verdict.contact_to;
