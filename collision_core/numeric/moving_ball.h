@@ -30,8 +30,11 @@
 //                         (intersection/overlap_estimate.cc).
 #pragma once
 
-#include "collision_core/numeric/interval.h"
+#include <cmath>
+
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/cubic.h"
+#include "collision_core/numeric/interval.h"
 
 namespace collision::numeric {
 
@@ -89,6 +92,16 @@ struct QuickBall {
 
   bool bends() const { return s3 != 0 || bend[0] != 0 || bend[1] != 0 || bend[2] != 0; }
 };
+
+/// The same ball about a centre that keeps its velocity: its reach grows by what the bend takes the
+/// centre off, rounded up.
+inline QuickBall Straightened(QuickBall ball) {
+  const double (&h)[3] = ball.bend;
+  const double bend = std::sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
+  ball.s2 = kFewRoundingsUp * (ball.s2 + bend);
+  ball.bend[0] = ball.bend[1] = ball.bend[2] = 0;
+  return ball;
+}
 
 /// The ball of the relative motion from A to B, rounded to nearest: what that costs is part of the
 /// argument at each use.

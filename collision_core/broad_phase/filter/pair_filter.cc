@@ -96,7 +96,7 @@ bool ComeNear(const numeric::QuickBall& difference, double last) {
 // the difference of two rows loses.
 double EarlierBound(const numeric::QuickBall& difference, double limit) {
   if (!difference.bends()) return EarlierBoundOfStraight(difference, limit);
-  return QuickFirstApproach({difference, 0, 0, 0, true}, limit).delta;
+  return numeric::QuickFirstApproach({difference, 0, 0, 0, true}, limit).delta;
 }
 
 }  // namespace collision::broad_phase

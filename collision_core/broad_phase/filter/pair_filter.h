@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/moving_ball.h"
 
 namespace collision::broad_phase {
@@ -13,14 +12,6 @@ inline double Length(const double* v) { return std::sqrt(v[0] * v[0] + v[1] * v[
 
 /// By how much the filter's bounds and the canonical answer together may be early.
 inline constexpr double kFilterEarliness = 1 - 4e-9;
-
-/// The same ball about a centre that keeps its velocity: its reach grows by what the bend takes the
-/// centre off, rounded up.
-inline numeric::QuickBall Straightened(numeric::QuickBall ball) {
-  ball.s2 = numeric::kFewRoundingsUp * (ball.s2 + Length(ball.bend));
-  ball.bend[0] = ball.bend[1] = ball.bend[2] = 0;
-  return ball;
-}
 
 /// False if the ball of a relative motion certainly does not contain the origin in [0, last] s.
 bool ComeNear(const numeric::QuickBall& difference, double last);

@@ -30,7 +30,7 @@ struct Balls {
   FilterView view() const {
     return {arrays[0].data(), arrays[1].data(), arrays[2].data(), arrays[3].data(),
             arrays[4].data(), arrays[5].data(), arrays[6].data(), arrays[7].data(),
-            arrays[8].data(), arrays[9].data()};
+            arrays[8].data(), nullptr,          arrays[9].data()};
   }
 };
 

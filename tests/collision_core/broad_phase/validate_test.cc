@@ -59,7 +59,7 @@ TEST(Validate, SpatialIndexIsWholeThroughHistories) {
 }
 
 PlacedBall HornOf(std::uint32_t agent, double x) {
-  return {{x, 0, 0}, {1, 0, 0}, 1, 1, 0.5f, 0.25f, agent};
+  return {{x, 0, 0}, {1, 0, 0}, 1, 1, 0.5f, 0.25f, 0, 0, agent};
 }
 
 TEST(Validate, TellsAnAgentThatStandsTwiceInARow) {

@@ -34,12 +34,12 @@ TEST(BoundMargin, IsSpentByDrifts) {
     const motion::ContractCheck drift =
         of_position ? Drift(0.4 * position, 0) : Drift(0, 0.4 * velocity);
     BoundMargin margin = full;
-    EXPECT_TRUE(margin.Spend(drift, bound.state));
-    EXPECT_TRUE(margin.Spend(drift, bound.state));
+    EXPECT_TRUE(margin.Spend(drift, bound));
+    EXPECT_TRUE(margin.Spend(drift, bound));
     const motion::MotionState left = margin.Widen(bound).state;
     EXPECT_NEAR(left.position_error, (of_position ? 0.2 : 1) * position, 1e-9 * position);
     EXPECT_NEAR(left.velocity_error, (of_position ? 1 : 0.2) * velocity, 1e-9 * velocity);
-    EXPECT_FALSE(margin.Spend(drift, bound.state)) << of_position;
+    EXPECT_FALSE(margin.Spend(drift, bound)) << of_position;
   }
 }
 
@@ -52,7 +52,7 @@ TEST(BoundMargin, WidenedBoundsAreNested) {
   double before = margin.Widen(bound).state.position_error;
   for (int i = 0; i < 100; ++i) {
     const double drift = 1e-12 * i;
-    if (!margin.Spend(Drift(drift, 0), bound.state)) break;
+    if (!margin.Spend(Drift(drift, 0), bound)) break;
     const double after = margin.Widen(bound).state.position_error;
     EXPECT_LE(after + drift, before) << i;
     before = after;
@@ -67,6 +67,25 @@ TEST(BoundMargin, AJumpMayHaveComeEarlier) {
   const double without = margin.Widen(bound).state.position_error;
   bound.state.discontinuity = true;
   EXPECT_GE(margin.Widen(bound).state.position_error, without + 2 * 100 * 0.01);
+}
+
+// Goal:   a known acceleration has a margin of its own, which drift takes off and which a widened
+//         bound counts as unknown; an agent that knows none has none.
+TEST(BoundMargin, KnownAccelerationsHaveTheirOwn) {
+  motion::SpaceTimeBound bound = Moving();
+  EXPECT_EQ(BoundMargin(bound).Widen(bound).limits.acceleration_max,
+            bound.limits.acceleration_max);
+  bound.state.a_WA = {0, 6, 8};
+  bound.limits.acceleration_max = 0;
+  bound.limits.jerk_max = 3;
+  BoundMargin margin(bound);
+  const double whole = margin.Widen(bound).limits.acceleration_max;
+  EXPECT_NEAR(whole, 10 * 0x1p-40 + 4e-9 * 3, 1e-12 * whole);
+  motion::ContractCheck drift;
+  drift.acceleration_drift = 0.6 * whole;
+  EXPECT_TRUE(margin.Spend(drift, bound));
+  EXPECT_NEAR(margin.Widen(bound).limits.acceleration_max, 0.4 * whole, 1e-9 * whole);
+  EXPECT_FALSE(margin.Spend(drift, bound));
 }
 
 }  // namespace
