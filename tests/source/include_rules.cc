@@ -87,8 +87,10 @@ const std::vector<Layer>& Layers() {
       {library + "shape/", {"idl/shape_bytes.h", api, library + "shape/"}},
       {library + "network/",
        {core + "base/recent_map.h", "idl/", api, validation, library + "network/"}},
+      {library + "notices/", {api, library + "notices/"}},
       {library + "world/",
-       {"idl/", api, validation, library + "deadline.h", library + "network/", library + "world/"}},
+       {"idl/", api, validation, library + "deadline.h", library + "network/", library + "notices/",
+        library + "world/"}},
       {library, {"idl/limits.h", api, validation}},
       {"client/example/", {api}},
       // The checker shares nothing with what it checks but the messages.

@@ -17,6 +17,24 @@ TimeBracket BracketOf(const v1::TimeBracket& bracket) {
   return {bracket.earliest_ns(), bracket.latest_ns()};
 }
 
+bool IsLasting(v1::RejectionReason reason) {
+  switch (reason) {
+    case v1::REJECTED_NOT_FINITE:
+    case v1::REJECTED_OUT_OF_RANGE:
+    case v1::REJECTED_ID_MISMATCH:
+    case v1::REJECTED_FUTURE_STAMP:
+    case v1::REJECTED_TOO_MANY_AGENTS:
+    case v1::REJECTED_TOO_MANY_SIMULATORS:
+    case v1::REJECTED_OLD_RUN:
+    case v1::REJECTED_CLOCK_BEYOND_GRANT:
+    case v1::REJECTED_CHUNK_TOO_LARGE:
+    case v1::REJECTED_BAD_SHAPE:
+      return true;
+    default:
+      return false;
+  }
+}
+
 SimulatorStatus SimulatorStatusOf(const v1::SimulatorStatus& message) {
   SimulatorStatus status;
   status.simulator = message.simulator_id();
@@ -166,6 +184,7 @@ Rejection FromMessage(const v1::Rejection& message) {
   rejection.field = message.field();
   rejection.detail = message.detail();
   rejection.count = message.count();
+  rejection.lasting = IsLasting(message.reason());
   return rejection;
 }
 
@@ -178,6 +197,7 @@ Rejection FromMessage(const v1::StandingRefusal& refusal, const v1::SimulatorRep
   rejection.field = refusal.field();
   rejection.detail = refusal.detail();
   rejection.count = report.refused();
+  rejection.lasting = IsLasting(refusal.reason());
   return rejection;
 }
 

@@ -66,7 +66,9 @@ World::Implementation::Implementation(const WorldOptions& options,
       agents_(options.simulator, simulator_id_, run_, arrival_.incarnation(), PolicyOf(options)),
       shapes_(simulator_id_, run_, arrival_.incarnation()),
       gate_(options.lock_step ? ClearanceGate::kPatienceInLockStep : ClearanceGate::kPatience),
-      wall_clock_(options.wall_clock ? options.wall_clock : SystemClockNs) {}
+      wall_clock_(options.wall_clock ? options.wall_clock : SystemClockNs),
+      waiting_(simulator_id_),
+      notices_({options.simulator, options.world, options.domain, options.lock_step}) {}
 
 bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("WaitForService()");
@@ -74,7 +76,8 @@ bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
   while (!transport_->service_alive()) {
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) return false;
-    Gather(remaining);
+    Gather(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
+    TellNotices();
   }
   return true;
 }
@@ -148,6 +151,9 @@ Advance World::Implementation::AdvanceTo(std::int64_t clock_ns, std::chrono::nan
       if (!clock_published_) Reach(Reachable());
       Tell(clock_ns);
     }
+    ungranted_ = lock_step_ && !arrival_.waits() && clock_ns > Reachable();
+    TellNotices();
+    if (closed_) break;
     if (clock_published_ && clock_ns_ >= clock_ns) return Advance::kReached;
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) break;
@@ -166,10 +172,13 @@ std::optional<std::int64_t> World::Implementation::Join(std::chrono::nanoseconds
     // A clock without a time asks for it.
     if (!asked_ || IsQuiet()) WriteClock(kBeforeAll);
     asked_ = true;
+    ungranted_ = true;
+    TellNotices();
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) return std::nullopt;
     Gather(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
   }
+  ungranted_ = false;
   joined_ns_ = granted_until_ns_;
   return joined_ns_;
 }
@@ -180,6 +189,7 @@ void World::Implementation::Poll(std::chrono::nanoseconds timeout) {
   if (clock_due_ && timeout.count() > 0) Tell(clock_ns_ + 1);
   Listen(timeout);
   DeliverAll();
+  TellNotices();
 }
 
 void World::Implementation::Listen(std::chrono::nanoseconds timeout) {
