@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "client/api/notice.h"
 #include "client/api/types.h"
 
 namespace collision::client {
@@ -124,8 +125,8 @@ class World {
   /// Never decreases; INT64_MIN before the first grant.
   std::int64_t granted_until_ns() const;
 
-  /// Whether the service has a simulated clock, as lock-step needs it; nullopt until it has said.
-  std::optional<bool> simulated_clock() const;
+  /// Whether the world runs in lock-step (false: in real time); nullopt until its service has said.
+  std::optional<bool> world_lock_step() const;
 
   /// Takes in what has arrived, waits at most `timeout` for an arrival, and runs the callbacks.
   /// With a timeout above 0, in lock-step after AdvanceTo(), it says that nothing more of this time
@@ -167,6 +168,14 @@ class World {
   /// move (`clock.waiting_after_s` of the service), and for shapes ("shape 1a2b3c4d", from their
   /// hashes) that are sent or whose trees are built. Rules as for OnEvent().
   void OnWaiting(std::function<void(const std::vector<std::string>&)> callback);
+
+  /// Calls back for what the user of this simulator should know: no service is heard, it runs with
+  /// a clock of the other kind, time waits for somebody, something is refused (client/api/notice.h).
+  /// Each cause is told once, what lasts again every 60 s, and what is over once. Empty, as at the
+  /// start: they go to standard error, "SIMULATOR: TEXT". They are noticed and told inside Poll(),
+  /// AdvanceTo(), WaitForService() and Join(), which pass on what the callback throws. Otherwise
+  /// the rules are those of OnEvent().
+  void OnNotice(std::function<void(const Notice&)> callback);
 
   /// What has been set and sent so far.
   const Traffic& traffic() const;

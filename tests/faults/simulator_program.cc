@@ -55,6 +55,7 @@ void SimulatorProgram::Start() {
                               .chunk_size = options_.chunk_size,
                               .wall_clock = [this] { return StampOf(network_.now_ns()); }},
                              std::move(end)));
+  world_->OnNotice([](const client::Notice&) {});  // Faults are what these runs are made of.
   world_->OnEvent([this](const client::Event& event) {
     const OnBehalfOf test(Owner::kTest);
     const std::int64_t clock_ns = world_->clock_ns();

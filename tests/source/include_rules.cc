@@ -88,9 +88,10 @@ const std::vector<Layer>& Layers() {
       {library + "identity/", {core + "base/recent_map.h", "idl/", api, library + "identity/"}},
       {library + "network/",
        {core + "base/recent_map.h", "idl/", api, validation, library + "network/"}},
+      {library + "notices/", {api, library + "notices/"}},
       {library + "world/",
        {"idl/", api, validation, library + "deadline.h", library + "identity/",
-        library + "network/", library + "world/"}},
+        library + "network/", library + "notices/", library + "world/"}},
       {library, {"idl/limits.h", api, validation}},
       {"client/example/", {api}},
       // The checker shares nothing with what it checks but the messages.

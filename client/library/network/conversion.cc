@@ -28,6 +28,25 @@ AgentLabel LabelOf(const v1::AgentLabel& message) {
           TagsOf(message.tags())};
 }
 
+bool IsLasting(v1::RejectionReason reason) {
+  switch (reason) {
+    case v1::REJECTED_NOT_FINITE:
+    case v1::REJECTED_OUT_OF_RANGE:
+    case v1::REJECTED_ID_MISMATCH:
+    case v1::REJECTED_FUTURE_STAMP:
+    case v1::REJECTED_TOO_MANY_AGENTS:
+    case v1::REJECTED_TOO_MANY_SIMULATORS:
+    case v1::REJECTED_OLD_RUN:
+    case v1::REJECTED_CLOCK_BEYOND_GRANT:
+    case v1::REJECTED_CHUNK_TOO_LARGE:
+    case v1::REJECTED_BAD_SHAPE:
+    case v1::REJECTED_MISMATCH:
+      return true;
+    default:
+      return false;
+  }
+}
+
 SimulatorStatus SimulatorStatusOf(const v1::SimulatorStatus& message) {
   SimulatorStatus status;
   status.simulator = message.simulator_id();
@@ -197,6 +216,7 @@ Rejection FromMessage(const v1::Rejection& message) {
   rejection.field = message.field();
   rejection.detail = message.detail();
   rejection.count = message.count();
+  rejection.lasting = IsLasting(message.reason());
   return rejection;
 }
 
@@ -209,6 +229,7 @@ Rejection FromMessage(const v1::StandingRefusal& refusal, const v1::SimulatorRep
   rejection.field = refusal.field();
   rejection.detail = refusal.detail();
   rejection.count = report.refused();
+  rejection.lasting = IsLasting(refusal.reason());
   return rejection;
 }
 

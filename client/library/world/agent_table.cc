@@ -64,6 +64,11 @@ void AgentTable::Describe(const AgentId& id, const AgentDescription& description
   census_changed_ = true;
 }
 
+std::string AgentTable::NameIn(std::uint32_t slot) const {
+  const bool is_there = slot < slots_.size() && slots_[slot].occupied;
+  return is_there ? slots_[slot].description.agent_name() : "";
+}
+
 void AgentTable::Stage(const AgentId& id, const State& state) {
   Slot& slot = slots_.at(id.slot);
   const bool was_staged = slot.states.staged().has_value();

@@ -34,6 +34,9 @@ class AgentTable {
   const v1::AgentDescription& description(const AgentId& id) const;
   void Describe(const AgentId& id, const AgentDescription& description);
 
+  /// The name of the agent in this slot; empty: there is none.
+  std::string NameIn(std::uint32_t slot) const;
+
   /// Stages a state until the clock reaches its stamp; see OutgoingStates.
   void Stage(const AgentId& id, const State& state);
 

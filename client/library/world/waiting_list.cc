@@ -8,6 +8,7 @@ namespace collision::client {
 
 void WaitingList::Take(const v1::ServiceStatus& status) {
   names_.clear();
+  TakeLaggard(status);
   for (const v1::KeyValue& extension : status.extensions()) {
     if (extension.key() != "waiting_for") continue;
     const std::string& text = extension.value();
@@ -20,6 +21,15 @@ void WaitingList::Take(const v1::ServiceStatus& status) {
       if (wire::IsName(name) || is_other) names_.push_back(name);
       begin = end + 2;
     }
+  }
+}
+
+void WaitingList::TakeLaggard(const v1::ServiceStatus& status) {
+  laggard_.reset();
+  for (const v1::SimulatorStatus& simulator : status.simulators()) {
+    if (simulator.simulator_id() == simulator_id_) continue;
+    if (laggard_ && laggard_->clock_ns <= simulator.clock_ns()) continue;
+    laggard_ = {simulator.name(), simulator.clock_ns()};
   }
 }
 

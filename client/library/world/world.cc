@@ -59,7 +59,7 @@ std::int64_t World::clock_ns() const { return implementation_->clock_ns(); }
 
 std::int64_t World::granted_until_ns() const { return implementation_->granted_until_ns(); }
 
-std::optional<bool> World::simulated_clock() const { return implementation_->simulated_clock(); }
+std::optional<bool> World::world_lock_step() const { return implementation_->world_lock_step(); }
 
 void World::Poll(std::chrono::nanoseconds timeout) {
   const auto alive = implementation_;  // A callback may end this World.
@@ -88,6 +88,10 @@ void World::OnServiceBack(std::function<void()> callback) {
 
 void World::OnWaiting(std::function<void(const std::vector<std::string>&)> callback) {
   implementation_->OnWaiting(std::move(callback));
+}
+
+void World::OnNotice(std::function<void(const Notice&)> callback) {
+  implementation_->OnNotice(std::move(callback));
 }
 
 std::vector<Event> World::TakeEvents() { return implementation_->TakeEvents(); }

@@ -1,6 +1,7 @@
 // What a World does with what arrives.
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <functional>
 #include <utility>
 
@@ -107,7 +108,7 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
       const v1::ServiceStatus& status = output.service_status();
       if (status.phase() != v1::PHASE_SERVING) break;
       if (!Accept(status.stamp(), status.now_ns(), now, status.followers() > 0)) break;
-      simulated_clock_ = status.simulated_clock();
+      world_lock_step_ = status.simulated_clock();
       waiting_.Take(status);
       break;
     }
@@ -136,6 +137,7 @@ void World::Implementation::Handle(const v1::ServiceHello& hello) {
 void World::Implementation::Keep(const Rejection& rejection) {
   if (rejections_.size() == kRejectionsMax) rejections_.pop_front();
   rejections_.push_back(rejection);
+  Note(rejections_.back());
 }
 
 void World::Implementation::Heed() {
@@ -177,6 +179,7 @@ void World::Implementation::Handle(const v1::Clearance& told) {
   for (const v1::AgentClearance& agent : clearance.agents()) {
     if (!agents_.SetClearance(agent, clearance.now_ns())) continue;
     const AgentId id{simulator_id_, run_, agent.slot(), agent.generation()};
+    NoteBreach(agent);
     if (on_lowered_ || on_void_) lowered_.emplace_back(id, this->clearance(id));
   }
 }
@@ -298,6 +301,44 @@ void World::Implementation::DeliverAll() {
   }
   DropOldEvents();
   Deliver();
+}
+
+void World::Implementation::TellNotices() {
+  notices_.Look({.service_heard = transport_->service_alive() && !service_lost_,
+                 .world_lock_step = world_lock_step_,
+                 .waits = ungranted_,
+                 .granted_until_ns = granted_until_ns_,
+                 .waiting_for = waiting_.names(),
+                 .laggard = waiting_.laggard(),
+                 .other_program = waits_for_name(),
+                 .ended = ended_because()},
+                transport_->Now());
+  while (!closed_) {
+    const std::optional<Notice> notice = notices_.Take();
+    if (!notice) return;
+    if (on_notice_) {
+      Call(on_notice_, *notice);
+    } else {
+      std::fprintf(stderr, "%s: %s\n", name_.c_str(), notice->text.c_str());
+    }
+  }
+}
+
+void World::Implementation::Note(const Rejection& rejection) {
+  const bool is_of_agent =
+      rejection.topic == "TOPIC_AGENT_DESCRIPTION" || rejection.topic == "TOPIC_AGENT_STATES";
+  notices_.Refuse(rejection, is_of_agent ? agents_.NameIn(rejection.slot) : "");
+}
+
+/// Others hear of a breach, too: what counts is whose it was.
+void World::Implementation::NoteBreach(const v1::AgentClearance& clearance) {
+  if (!IsOwn(clearance.cause_agent())) return;
+  if (clearance.cause() == v1::CAUSE_BREACH) {
+    const std::string agent = agents_.NameIn(clearance.cause_agent().slot());
+    if (!agent.empty()) notices_.Breach(agent, clearance.void_from_ns());
+  } else if (clearance.cause() == v1::CAUSE_SKEW) {
+    notices_.Breach("", clearance.void_from_ns());
+  }
 }
 
 template <typename Callback, typename... Values>

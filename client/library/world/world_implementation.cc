@@ -67,7 +67,9 @@ World::Implementation::Implementation(const WorldOptions& options,
       shapes_(simulator_id_, run_, arrival_.incarnation()),
       gate_(options.lock_step ? ClearanceGate::kPatienceInLockStep : ClearanceGate::kPatience),
       wall_clock_(options.wall_clock ? options.wall_clock : SystemClockNs),
-      fit_({options.simulator, options.lock_step, options.frame}) {
+      fit_({options.simulator, options.lock_step, options.frame}),
+      waiting_(simulator_id_),
+      notices_({options.simulator, options.world, options.domain, options.lock_step}) {
   v1::Input message;
   *message.mutable_simulator_hello() = HelloOf(
       {options.simulator, options.lock_step, options.frame}, simulator_id_, arrival_.incarnation());
@@ -80,7 +82,8 @@ bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
   while (!transport_->service_alive()) {
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) return false;
-    Gather(remaining);
+    Gather(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
+    TellNotices();
   }
   return true;
 }
@@ -155,6 +158,9 @@ Advance World::Implementation::AdvanceTo(std::int64_t clock_ns, std::chrono::nan
       if (!clock_published_) Reach(Reachable());
       Tell(clock_ns);
     }
+    ungranted_ = lock_step_ && !arrival_.waits() && clock_ns > Reachable();
+    TellNotices();
+    if (closed_) break;
     if (clock_published_ && clock_ns_ >= clock_ns) return Advance::kReached;
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) break;
@@ -173,10 +179,13 @@ std::optional<std::int64_t> World::Implementation::Join(std::chrono::nanoseconds
     // A clock without a time asks for it.
     if (!asked_ || IsQuiet()) WriteClock(kBeforeAll);
     asked_ = true;
+    ungranted_ = true;
+    TellNotices();
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) return std::nullopt;
     Gather(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
   }
+  ungranted_ = false;
   joined_ns_ = granted_until_ns_;
   return joined_ns_;
 }
@@ -187,6 +196,7 @@ void World::Implementation::Poll(std::chrono::nanoseconds timeout) {
   if (clock_due_ && timeout.count() > 0) Tell(clock_ns_ + 1);
   Listen(timeout);
   DeliverAll();
+  TellNotices();
 }
 
 void World::Implementation::Listen(std::chrono::nanoseconds timeout) {

@@ -20,6 +20,7 @@
 #include "client/library/network/held_forecasts.h"
 #include "client/library/network/revision_filter.h"
 #include "client/library/network/transport.h"
+#include "client/library/notices/notices.h"
 #include "client/library/world/agent_table.h"
 #include "client/library/world/arrival.h"
 #include "client/library/world/service_echo.h"
@@ -65,7 +66,7 @@ class World::Implementation {
   std::int64_t clock_ns() const { return clock_ns_; }
   std::int64_t granted_until_ns() const { return granted_until_ns_; }
 
-  std::optional<bool> simulated_clock() const { return simulated_clock_; }
+  std::optional<bool> world_lock_step() const { return world_lock_step_; }
 
   void OnEvent(std::function<void(const Event&)> callback) { on_event_ = std::move(callback); }
   using ClearanceCallback = std::function<void(const AgentId&, const Clearance&)>;
@@ -76,6 +77,7 @@ class World::Implementation {
   void OnWaiting(std::function<void(const std::vector<std::string>&)> callback) {
     on_waiting_ = std::move(callback);
   }
+  void OnNotice(std::function<void(const Notice&)> callback) { on_notice_ = std::move(callback); }
   std::vector<Event> TakeEvents();
   std::vector<Rejection> TakeRejections();
   std::uint64_t events_lost() const { return events_lost_; }
@@ -165,6 +167,11 @@ class World::Implementation {
 
   void DropOldEvents();
 
+  /// Tells the user what stands in the way.
+  void TellNotices();
+  void Note(const Rejection& rejection);
+  void NoteBreach(const v1::AgentClearance& clearance);
+
   /// Runs the callbacks for what has been received, or for that and the forecasts that are held.
   void Deliver();
   void DeliverAll();
@@ -195,7 +202,7 @@ class World::Implementation {
 
   std::int64_t clock_ns_ = kBeforeAll;
   std::int64_t granted_until_ns_ = kBeforeAll;
-  std::optional<bool> simulated_clock_;
+  std::optional<bool> world_lock_step_;
   bool clock_published_ = false;
   bool asked_ = false;                     ///< What time it is: Join().
   std::optional<std::int64_t> joined_ns_;  ///< The answer.
@@ -217,7 +224,10 @@ class World::Implementation {
   std::function<void()> on_lost_, on_back_;
   std::function<void(const Event&)> on_event_;
   std::function<void(const std::vector<std::string>&)> on_waiting_;
+  std::function<void(const Notice&)> on_notice_;
   WaitingList waiting_;
+  Notices notices_;
+  bool ungranted_ = false;  ///< A step, or the answer to Join(), is waited for.
   std::deque<Event> events_;
   std::deque<Rejection> rejections_;
   std::uint64_t events_lost_ = 0;

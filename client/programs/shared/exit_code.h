@@ -16,6 +16,13 @@ enum ExitCode {
   kExitOutputFailed = 74
 };
 
+/// The service refused this simulator's agents, and repeating them does not help. RunProgram() turns
+/// it into kExitRefused.
+class RefusedError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Thrown for input of the user that cannot be used. RunProgram() turns it into kExitBadData.
 class BadInput : public std::runtime_error {
  public:

@@ -1,16 +1,16 @@
 #include "client/programs/shared/pace.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include "client/api/event_text.h"
+#include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/grant_patience.h"
 #include "client/programs/shared/stop_signal.h"
-#include "client/programs/shared/wait_notice.h"
 #include "idl/scene.pb.h"
 
 namespace collision::client {
@@ -49,18 +49,14 @@ std::string GrantedText(std::int64_t granted_ns) {
 
 }  // namespace
 
-Pace::Pace(const SimulatorOptions& options)
-    : options_(options), world_(Connect(options)), refusals_(options.simulator) {
+Pace::Pace(const SimulatorOptions& options) : options_(options), world_(Connect(options)) {
+  world_.OnNotice([this](const Notice& notice) { Hear(notice); });
   world_.OnWaiting([this](const std::vector<std::string>& names) { waited_for_ = names; });
   world_.OnServiceLost([this] { has_service_ = false; });
   world_.OnServiceBack([this] { has_service_ = true; });
-  WaitNotice notice(steady_clock::now());
   const auto deadline = steady_clock::now() + kServiceTimeout;
   while (!world_.WaitForService(kStopCheck)) {
     if (StopRequested()) break;
-    notice.Tick(steady_clock::now(), options.simulator + ": waiting for the service of world " +
-                                         options.world + " on domain " +
-                                         std::to_string(options.domain) + " ...");
     if (steady_clock::now() > deadline) {
       throw std::runtime_error("no service in world \"" + options.world + "\", domain " +
                                std::to_string(options.domain));
@@ -100,60 +96,45 @@ bool Pace::AdvanceTo(std::int64_t clock_ns) {
   }
   std::int64_t granted_ns = world_.granted_until_ns();
   GrantPatience patience(granted_ns, steady_clock::now());
-  WaitNotice notice(steady_clock::now());
   while (!StopRequested()) {
     const bool reached = world_.AdvanceTo(clock_ns, kStopCheck) == Advance::kReached;
     TakeRefusals();
     if (reached) return true;
     const auto now = steady_clock::now();
-    const bool granted = world_.granted_until_ns() != granted_ns;
-    if (granted) notice = WaitNotice(now);
     granted_ns = world_.granted_until_ns();
-    const std::string beyond = GrantedText(granted_ns);
-    const std::string reason = WaitsFor();
-    notice.Tick(now, options_.simulator + ": waiting for the service of world " + options_.world +
-                         " to grant time" + beyond + " (" +
-                         (reason.empty() ? "another simulator may be behind" : reason) + ") ...");
-    if (patience.Lasts(granted_ns, !reason.empty(), now)) continue;
+    if (patience.Lasts(granted_ns, HasReason(), now)) continue;
     RequireAgentsTaken();
-    throw std::runtime_error("the service granted no time" + beyond + " for " +
+    throw std::runtime_error("the service granted no time" + GrantedText(granted_ns) + " for " +
                              std::to_string(kGrantTimeout.count()) + " s");
   }
   return false;
 }
 
-std::string Pace::WaitsFor() const {
-  std::string names;
-  for (const std::string& name : waited_for_) {
-    if (name != options_.simulator) names += (names.empty() ? "it waits for " : ", ") + name;
-  }
-  return has_service_ ? names : "";
+bool Pace::HasReason() const {
+  const auto other = [this](const std::string& name) { return name != options_.simulator; };
+  return has_service_ && std::ranges::any_of(waited_for_, other);
+}
+
+void Pace::Hear(const Notice& notice) const {
+  const bool is_end = notice.kind == NoticeKind::kWrongClock || notice.kind == NoticeKind::kEnded;
+  if (is_end && !notice.over) throw RefusedError(notice.text);
+  std::fprintf(stderr, "%s: %s\n", options_.simulator.c_str(), notice.text.c_str());
 }
 
 void Pace::TakeRefusals() {
-  refusals_.Add(world_.TakeRejections(), steady_clock::now());
-  const std::string former = std::exchange(other_, world_.waits_for_name());
-  if (!other_.empty() && former.empty()) std::fprintf(stderr, "%s\n", other_.c_str());
-  if (world_.granted_until_ns() > granted_ns_) refusals_.Granted();
-  granted_ns_ = world_.granted_until_ns();
-  RequireClock();
+  for (const Rejection& rejection : world_.TakeRejections()) {
+    refused_ = std::max(refused_, rejection.count);
+    if (rejection.lasting && refused_for_good_.empty()) refused_for_good_ = rejection.reason;
+  }
   const std::string ended = world_.ended_because();
   if (!ended.empty()) throw RefusedError(ended);
-}
-
-void Pace::RequireClock() const {
-  const auto simulated = world_.simulated_clock();
-  if (!simulated || *simulated != options_.real_time) return;
-  throw RefusedError("the service of world " + options_.world +
-                     (*simulated ? " has a simulated clock: not with --real-time"
-                                 : " has a wall clock: only with --real-time"));
 }
 
 void Pace::RequireAgentsTaken() const {
   const std::string other = world_.waits_for_name();
   if (!other.empty()) throw RefusedError(other);
-  const auto reason = refusals_.fatal(steady_clock::now());
-  if (reason) throw RefusedError("the service refused this simulator's agents: " + *reason);
+  if (refused_for_good_.empty()) return;
+  throw RefusedError("the service refused this simulator's agents: " + refused_for_good_);
 }
 
 void Pace::ReportTraffic(bool quiet) const {
@@ -179,9 +160,9 @@ void Pace::ReportTraffic(bool quiet) const {
 void Pace::CheckRefusals() {
   world_.Poll();
   TakeRefusals();
-  const std::string summary = refusals_.Summary();
-  if (summary.empty()) return;
-  std::fprintf(stderr, "%s: %s\n", options_.simulator.c_str(), summary.c_str());
+  if (refused_ == 0) return;
+  std::fprintf(stderr, "%s: the service refused %llu samples\n", options_.simulator.c_str(),
+               static_cast<unsigned long long>(refused_));
   RequireAgentsTaken();
 }
 

@@ -4,12 +4,10 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "client/api/world.h"
-#include "client/programs/shared/refusals.h"
 
 namespace collision::client {
 
@@ -37,8 +35,7 @@ struct PaceStep {
 
 class Pace {
  public:
-  /// Connects and waits for the service, at most 20 s; prints a notice while it waits. Throws
-  /// std::runtime_error.
+  /// Connects and waits for the service, at most 20 s. Throws std::runtime_error.
   explicit Pace(const SimulatorOptions& options);
   Pace(const Pace&) = delete;
   Pace& operator=(const Pace&) = delete;
@@ -52,7 +49,7 @@ class Pace {
   std::int64_t end_ns() const;
 
   /// Publishes the states with stamps up to `clock_ns` and moves the clock there; delivers events
-  /// and prints refusals meanwhile. False: the program was asked to stop. Throws std::runtime_error
+  /// meanwhile. False: the program was asked to stop. Throws std::runtime_error
   /// if the service grants no time for 120 s and names nobody whom it waits for; RefusedError if it
   /// refused the agents, if an operator ended the run, or if its clock is of the other kind.
   bool AdvanceTo(std::int64_t clock_ns);
@@ -75,19 +72,18 @@ class Pace {
 
  private:
   bool WaitForWall(std::chrono::steady_clock::time_point until);
-  /// Whom or what else time waits for, as the service says; empty: it says nothing, or is gone.
-  std::string WaitsFor() const;
+  /// Whether the service is there and says for whom or what else time waits.
+  bool HasReason() const;
   void TakeRefusals();
-  void RequireClock() const;
+  void Hear(const Notice& notice) const;
   void RequireAgentsTaken() const;
 
   SimulatorOptions options_;
   World world_;
-  Refusals refusals_;
   std::vector<std::string> waited_for_;  ///< As the service last said.
   bool has_service_ = true;
-  std::string other_;  ///< Printed: why it waits for its name.
-  std::int64_t granted_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::uint64_t refused_ = 0;     ///< As the service counts.
+  std::string refused_for_good_;  ///< The first reason.
   std::int64_t start_ns_ = 0;
   std::chrono::steady_clock::time_point start_;  // the same moment
 };

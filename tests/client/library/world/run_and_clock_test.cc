@@ -29,13 +29,13 @@ TEST(RunAndClock, ARunByTheClockCountsTenthsOfASecond) {
 TEST(RunAndClock, TheServiceSaysTheKindOfItsClock) {
   const auto network = std::make_shared<FakeNetwork>();
   World world = ConnectTo(network);
-  EXPECT_FALSE(world.simulated_clock());
+  EXPECT_FALSE(world.world_lock_step());
   for (const bool simulated : {true, false}) {
     v1::ServiceStatus& status = *network->arriving.emplace_back().mutable_service_status();
     status.set_phase(v1::PHASE_SERVING);
     status.set_simulated_clock(simulated);
     world.Poll();
-    EXPECT_EQ(world.simulated_clock(), simulated);
+    EXPECT_EQ(world.world_lock_step(), simulated);
   }
 }
 

@@ -27,7 +27,7 @@ v1::ServiceStatus StatusOf(const std::string& waiting_for) {
 }
 
 TEST(WaitingList, ReadsNamesAndNothingElse) {
-  WaitingList list;
+  WaitingList list(SimulatorId(kSimulator));
   EXPECT_FALSE(list.TakeChange());
   list.Take(StatusOf("alpha, beta-2, shape 1a2b3c4d, +7 more"));
   EXPECT_EQ(list.names(), (Names{"alpha", "beta-2", "shape 1a2b3c4d"}));
