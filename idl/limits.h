@@ -97,8 +97,8 @@ inline constexpr int kContactsForLateJoiners = 1024;
 
 inline constexpr std::size_t kNameMax = 64;          ///< Of worlds, simulators, agents, assemblies.
 inline constexpr std::size_t kLabelMax = 64;         ///< Of frames, epochs, versions.
-inline constexpr std::size_t kClassNameMax = 32;      ///< AgentDescription::class_name.
-inline constexpr int kPartnersListedMax = 16;         ///< Each list of names of a description.
+inline constexpr std::size_t kClassNameMax = 32;     ///< AgentDescription::class_name.
+inline constexpr int kPartnersListedMax = 16;        ///< Each list of names of a description.
 inline constexpr std::size_t kRefusedFieldMax = 64;  ///< Rejection::field.
 inline constexpr std::size_t kRefusalDetailMax = 256;   ///< Rejection::detail.
 inline constexpr std::size_t kExtensionValueMax = 256;  ///< KeyValue::value.

@@ -19,8 +19,7 @@ namespace {
 double FirstReach(const HalfSpace& half_space, const numeric::MovingBall& ball, double margin) {
   const numeric::IntervalVector n(half_space.normal);
   const numeric::Interval length = numeric::Norm(n);
-  const numeric::Cubic reach =
-      length * (numeric::Cubic{ball.radius + margin, 0, 0} + ball.u);
+  const numeric::Cubic reach = length * (numeric::Cubic{ball.radius + margin, 0, 0} + ball.u);
   const numeric::Interval along = (Dot(n, ball.anchor) - half_space.offset) + Dot(n, ball.shift);
   const numeric::Interval closing = reach.c1 - Dot(n, ball.velocity);
   const numeric::Interval growth = ball.bends ? reach.c2 - Dot(n, ball.bend) : reach.c2;

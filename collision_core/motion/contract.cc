@@ -67,8 +67,7 @@ Deviations DeviationsOf(const SpaceTimeBound& before, const MotionState& next,
     e.position = e.position - (numeric::Interval(0.5) * Square(s)) * a;
     e.velocity = e.velocity - s * a;
   }
-  e.acceleration =
-      numeric::IntervalVector(next.a_WA) - numeric::IntervalVector(before.state.a_WA);
+  e.acceleration = numeric::IntervalVector(next.a_WA) - numeric::IntervalVector(before.state.a_WA);
   e.position_length = numeric::Norm(e.position);
   e.velocity_length = numeric::Norm(e.velocity);
   e.acceleration_length = numeric::Norm(e.acceleration);
@@ -90,10 +89,9 @@ Limits OfUnknownPart(const MotionLimits& limits, numeric::Interval sigma,
                  acceleration_max * sigma, 0};
   if (limits.jerk_max == 0) return unknown;
   const numeric::Interval jerk = limits.jerk_max, three_m = numeric::Interval(3) * m;
-  unknown.position =
-      unknown.position + jerk / 6 * sigma * (Square(sigma) + three_m * (sigma + m));
-  unknown.velocity = unknown.velocity + numeric::Interval(0.5) * jerk * sigma *
-                                            (sigma + numeric::Interval(2) * m);
+  unknown.position = unknown.position + jerk / 6 * sigma * (Square(sigma) + three_m * (sigma + m));
+  unknown.velocity =
+      unknown.velocity + numeric::Interval(0.5) * jerk * sigma * (sigma + numeric::Interval(2) * m);
   unknown.acceleration = jerk * sigma;
   return unknown;
 }

@@ -42,8 +42,8 @@ struct MotionLimits {
   /// D [m/s²], >= 0: |acceleration − a_WA| is at most D + J |t − stamp|. Where no acceleration is
   /// known it is the greatest acceleration, Hubbard's M.
   double acceleration_max = 0;
-  double jerk_max = 0;          ///< J [m/s³], >= 0: how fast what is known ages.
-  double time_step = 0;         ///< h of an Euler integrator, of either kind [s]; 0: continuous.
+  double jerk_max = 0;   ///< J [m/s³], >= 0: how fast what is known ages.
+  double time_step = 0;  ///< h of an Euler integrator, of either kind [s]; 0: continuous.
   /// V: |velocity| of the reference point never exceeds it [m/s], >= 0; +infinity: not declared.
   /// speed_cap.h says how it changes the bound, and why any change of a declared cap is a widening.
   double speed_max = numeric::kInfinity;

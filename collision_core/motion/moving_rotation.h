@@ -32,7 +32,7 @@ namespace collision::motion {
 struct MovingRotation {
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
   Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();
-  numeric::Interval since;         ///< Seconds from the stamp to the base instant.
+  numeric::Interval since;     ///< Seconds from the stamp to the base instant.
   numeric::Cubic angle_error;  ///< θ(δ).
 
   numeric::IntervalQuaternion OrientationAt(double delta) const {

@@ -34,9 +34,9 @@ numeric::Cubic Deviation(const MotionLimits& limits, Elapsed elapsed) {
   const numeric::Interval half_jerk = numeric::Interval(0.5) * limits.jerk_max;
   const numeric::Interval sixth_jerk = numeric::Interval(limits.jerk_max) / 6;
   const numeric::Interval whole = start + step, thrice_step = numeric::Interval(3) * step;
-  return deviation +
-         numeric::Cubic{sixth_jerk * start * (Square(start) + thrice_step * whole),
-                        half_jerk * slope * Square(whole), half_jerk * whole, sixth_jerk * slope};
+  return deviation + numeric::Cubic{sixth_jerk * start * (Square(start) + thrice_step * whole),
+                                    half_jerk * slope * Square(whole), half_jerk * whole,
+                                    sixth_jerk * slope};
 }
 
 /// ε_p + |v| κ + ε_v σ + |a| (κ + ½ h) σ as a cubic in δ.
@@ -49,7 +49,8 @@ numeric::Cubic Errors(const SpaceTimeBound& bound, Elapsed elapsed) {
     rate = rate + numeric::Norm(numeric::IntervalVector(state.a_WA)) *
                       (bound.skew + numeric::Interval(0.5) * bound.limits.time_step);
   }
-  return {state.position_error + speed * bound.skew + rate * elapsed.start, rate * elapsed.slope, 0};
+  return {state.position_error + speed * bound.skew + rate * elapsed.start, rate * elapsed.slope,
+          0};
 }
 
 numeric::MovingBall Ball(const SpaceTimeBound& bound, Elapsed elapsed,

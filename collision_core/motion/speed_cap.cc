@@ -26,8 +26,7 @@ Instant TakesOver(const SpaceTimeBound& bound, numeric::Interval room, numeric::
   if (room.lower <= kAtTheCap * bound.limits.speed_max) return bound.state.stamp;
   if (rate.lower <= 0 && jerk.upper == 0) return Instant::Never();
   const numeric::Interval sigma =
-      jerk.upper == 0 ? room / rate
-                      : numeric::FirstZero(room.lower, rate.upper, 0.5 * jerk.upper);
+      jerk.upper == 0 ? room / rate : numeric::FirstZero(room.lower, rate.upper, 0.5 * jerk.upper);
   const double seconds = (sigma - bound.skew).lower;
   return numeric::AddRoundedDown(bound.state.stamp, std::max(0.0, seconds));
 }
@@ -37,8 +36,7 @@ numeric::Interval Known(const MotionState& state) {
                                      : numeric::Interval(0);
 }
 
-numeric::Cubic Growing(numeric::Interval u, numeric::Interval speed, Instant from,
-                           Instant base) {
+numeric::Cubic Growing(numeric::Interval u, numeric::Interval speed, Instant from, Instant base) {
   return {u + speed * numeric::SecondsBetween(from, base), speed, 0};
 }
 
@@ -48,9 +46,9 @@ numeric::Interval CappedSpeed(const SpaceTimeBound& bound) {
   const MotionLimits& limits = bound.limits;
   CORE_CHECK(HasSpeedCap(limits), "a capped speed has a cap");
   if (limits.jerk_max > 0) return (limits.time_step > 0 ? 2 : 1) * limits.speed_max;
-  return numeric::Interval(limits.speed_max) +
-         numeric::Interval(0.5) * (limits.acceleration_max + Known(bound.state)) *
-             numeric::Interval(limits.time_step);
+  return numeric::Interval(limits.speed_max) + numeric::Interval(0.5) *
+                                                   (limits.acceleration_max + Known(bound.state)) *
+                                                   numeric::Interval(limits.time_step);
 }
 
 Instant CapStartOf(const SpaceTimeBound& bound) {
@@ -71,8 +69,7 @@ Instant FaceCapStartOf(const SpaceTimeBound& bound, FaceNormal face, double frac
   const numeric::Interval room = numeric::Interval(limits.speed_max) -
                                  face.Along(bound.state.v_WA) - bound.state.velocity_error -
                                  Known(bound.state) * bound.skew;
-  return TakesOver(bound, room + step_room,
-                   rate + std::max(0.0, face.Along(bound.state.a_WA)),
+  return TakesOver(bound, room + step_room, rate + std::max(0.0, face.Along(bound.state.a_WA)),
                    numeric::Interval(fraction) * limits.jerk_max);
 }
 
@@ -113,8 +110,7 @@ CappedFace CappedFaceOf(const SpaceTimeBound& bound, FaceNormal face, numeric::I
   CappedFace cap;
   cap.from = FaceCapStartOf(bound, face, fraction.upper);
   if (cap.from.is_never()) return cap;
-  cap.shift =
-      PathOfFace(bound.state, face, numeric::SecondsBetween(bound.state.stamp, cap.from));
+  cap.shift = PathOfFace(bound.state, face, numeric::SecondsBetween(bound.state.stamp, cap.from));
   cap.u = ForwardErrors(bound, cap.from).c0 + fraction * ForwardDeviation(bound, cap.from).c0;
   cap.speed = CappedSpeed(bound);
   return cap;

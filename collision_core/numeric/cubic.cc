@@ -130,9 +130,8 @@ double FirstZero(double gap, double closing, double growth, double jerk) {
     const double end = beyond > x && beyond < kInfinity ? beyond - x : std::max(x, 1.0);
     const double steeper = (Interval(jerk) * end - seen.c2).upper;
     const double slope = -seen.c1.lower;
-    const double zero = steeper >= 0
-                            ? FirstZero(seen.c0.lower, slope, steeper)
-                            : FirstZeroBeforeItRecovers(seen.c0.lower, slope, steeper);
+    const double zero = steeper >= 0 ? FirstZero(seen.c0.lower, slope, steeper)
+                                     : FirstZeroBeforeItRecovers(seen.c0.lower, slope, steeper);
     const double next = AddDown(x, std::min(zero, end));
     if (!(next < kInfinity && next - x > kCertifiedProgress * next)) return std::max(x, next);
     if (zero >= end * (1 - kCertifiedProgress) && end == beyond - x) return next;

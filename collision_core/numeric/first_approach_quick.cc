@@ -107,17 +107,14 @@ struct View {
     const double top = kBends ? ball().s2 + delta * ball().s3 : ball().s2;
     return ball().s0 + delta * (ball().s1 + delta * top);
   }
-  double WayOf() const {
-    return kBends ? delta * (scale_v + delta * scale_h) : scale_v * delta;
-  }
+  double WayOf() const { return kBends ? delta * (scale_v + delta * scale_h) : scale_v * delta; }
 
   bool in_range() const { return distance >= kDistanceMin && distance <= kDistanceMax; }
   double gap_lower() const { return (distance - reach) - error; }
 
   /// Whether the true distance is certainly within the true reach.
   bool overlaps() const {
-    const double doubt1 =
-        kBends ? approach.doubt1 + approach.doubt2 * delta : approach.doubt1;
+    const double doubt1 = kBends ? approach.doubt1 + approach.doubt2 * delta : approach.doubt1;
     const double doubt = 2 * (error + approach.doubt0 + doubt1 * delta);
     return reach <= kDistanceMax && distance + doubt <= reach;
   }
@@ -129,7 +126,7 @@ struct View {
 
   /// How fast the tangent's gap closes, at most.
   double closing() const {
-    const double (&v)[3] = ball().v, (&h)[3] = ball().bend;
+    const double(&v)[3] = ball().v, (&h)[3] = ball().bend;
     double along, scale = scale_v, growing = ball().s1 + 2 * delta * ball().s2;
     if (kBends) {
       const double twice = 2 * delta;
@@ -145,7 +142,7 @@ struct View {
   /// How fast that grows, halved: at most, and not below 0.
   double growth() const {
     if (!kBends) return ball().s2;
-    const double (&h)[3] = ball().bend;
+    const double(&h)[3] = ball().bend;
     const double growing = ball().s2 + 3 * delta * ball().s3;
     const double error_of_growth = kErrorOfGrowth * (scale_h + growing);
     return std::max(0.0, (growing - Along(h[0], h[1], h[2])) + error_of_growth);
@@ -198,8 +195,8 @@ QuickAnswer Search(const QuickApproach& approach, double limit) {
     if (!(gap > 0)) return {arrives(delta), delta};
     const double closing = view.closing(), growth = view.growth();
     if (closing <= 0 && growth == 0 && jerk == 0) return {true, kInfinity};
-    const double step = jerk > 0 ? StepWithJerk(gap, closing, growth, jerk)
-                                 : Step(gap, closing, growth);
+    const double step =
+        jerk > 0 ? StepWithJerk(gap, closing, growth, jerk) : Step(gap, closing, growth);
     if (!(step < kInfinity)) return {false, delta};
     const double next = AddDown(delta, step);
     if (next > limit) return {true, kInfinity};

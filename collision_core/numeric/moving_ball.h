@@ -46,12 +46,12 @@ namespace collision::numeric {
 /// difference of two balls subtracts anchors first: a scene far from the origin loses only what its
 /// inputs lost.
 struct MovingBall {
-  IntervalVector anchor;    ///< Where the motion was known: p_WA of a bound.
-  IntervalVector shift;     ///< From there to the centre at δ = 0.
-  IntervalVector velocity;  ///< [m/s]
-  Interval radius;          ///< The constant part of the radius.
-  Cubic u;                  ///< The growing part; convex wherever the ball is valid.
-  bool bends = false;       ///< Whether `bend` may be other than zero.
+  IntervalVector anchor;     ///< Where the motion was known: p_WA of a bound.
+  IntervalVector shift;      ///< From there to the centre at δ = 0.
+  IntervalVector velocity;   ///< [m/s]
+  Interval radius;           ///< The constant part of the radius.
+  Cubic u;                   ///< The growing part; convex wherever the ball is valid.
+  bool bends = false;        ///< Whether `bend` may be other than zero.
   IntervalVector bend = {};  ///< Half the known acceleration [m/s²].
 
   /// The centre at δ = 0.
@@ -96,7 +96,7 @@ struct QuickBall {
 /// The same ball about a centre that keeps its velocity: its reach grows by what the bend takes the
 /// centre off, rounded up.
 inline QuickBall Straightened(QuickBall ball) {
-  const double (&h)[3] = ball.bend;
+  const double(&h)[3] = ball.bend;
   const double bend = std::sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
   ball.s2 = kFewRoundingsUp * (ball.s2 + bend);
   ball.bend[0] = ball.bend[1] = ball.bend[2] = 0;

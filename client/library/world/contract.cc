@@ -100,8 +100,8 @@ bool PathStandsIn(const MotionBounds& bounds, const State& sent, const State& ne
     sped[axis] -= gained;
   }
   const Vector3 changed = Difference(next.acceleration_m_s2, sent.acceleration_m_s2);
-  if (!(Norm(changed) <= 2 * bounds.acceleration_max_m_s2 + jerk * s +
-                             kRounding * Norm(next.acceleration_m_s2))) {
+  if (!(Norm(changed) <=
+        2 * bounds.acceleration_max_m_s2 + jerk * s + kRounding * Norm(next.acceleration_m_s2))) {
     return false;
   }
   if (!(Norm(moved) <= room.position + position_error)) return false;

@@ -18,10 +18,10 @@ constexpr double kRateMax = 0x1p+40;
 bool IsPlain(const motion::SpaceTimeBound& bound) {
   const motion::MotionState& state = bound.state;
   const motion::MotionLimits& limits = bound.limits;
-  return !Bends(bound) && bound.skew == 0 && state.position_error == 0 && state.velocity_error == 0 &&
-         limits.time_step == 0 && limits.speed_max == numeric::kInfinity &&
-         state.direction.isZero(0) && state.expiry.is_never() &&
-         2 * (0.5 * limits.acceleration_max) == limits.acceleration_max;
+  return !Bends(bound) && bound.skew == 0 && state.position_error == 0 &&
+         state.velocity_error == 0 && limits.time_step == 0 &&
+         limits.speed_max == numeric::kInfinity && state.direction.isZero(0) &&
+         state.expiry.is_never() && 2 * (0.5 * limits.acceleration_max) == limits.acceleration_max;
 }
 
 /// What a known acceleration and a jerk add to the ball of a row (space_time_bound.h).
@@ -31,8 +31,7 @@ void Bend(const motion::SpaceTimeBound& bound, numeric::QuickBall* ball) {
   for (int axis = 0; axis < 3; ++axis) ball->bend[axis] = 0.5 * bound.state.a_WA[axis];
   const double whole = skew + step, rate = 2 * Length(ball->bend) * (skew + 0.5 * step);
   const double s3 = jerk / 6;
-  ball->s0 =
-      kUp * (ball->s0 + rate * skew + s3 * (skew * (skew * skew + 3 * step * whole)));
+  ball->s0 = kUp * (ball->s0 + rate * skew + s3 * (skew * (skew * skew + 3 * step * whole)));
   ball->s1 = kUp * (ball->s1 + rate + 0.5 * jerk * whole * whole);
   ball->s2 = kUp * (ball->s2 + 0.5 * jerk * whole);
   ball->s3 = kUp * s3;
@@ -239,8 +238,8 @@ numeric::QuickBall BoxReach(numeric::QuickBall horn, double duration) {
   }
   for (const double v : horn.v) way += std::abs(v) * duration;
   horn.s0 = kCorner * (horn.s0 + bulge + kLineRounding * way);
-  horn.s1 = kCorner * (horn.s1 + duration * (horn.s2 + duration * horn.s3)) +
-            kLineRounding * faster;
+  horn.s1 =
+      kCorner * (horn.s1 + duration * (horn.s2 + duration * horn.s3)) + kLineRounding * faster;
   horn.s2 = horn.s3 = 0;
   return horn;
 }

@@ -29,7 +29,7 @@ constexpr double kWorthAStep = 1e-9;
 // distance of the two lines may exceed the reach at the end. What rounding takes is less than 2^-48
 // of distances, ways and reaches; it is added to the reach.
 bool StraightOnesComeNear(const numeric::QuickBall& difference, double last) {
-  const double (&c)[3] = difference.c, (&v)[3] = difference.v;
+  const double(&c)[3] = difference.c, (&v)[3] = difference.v;
   const double s0 = difference.s0;
   double square = 0, away = 0, speed_square = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -37,8 +37,7 @@ bool StraightOnesComeNear(const numeric::QuickBall& difference, double last) {
     away += c[axis] * v[axis];
     speed_square += v[axis] * v[axis];
   }
-  const double grown =
-      s0 + last * (difference.s1 + last * (difference.s2 + last * difference.s3));
+  const double grown = s0 + last * (difference.s1 + last * (difference.s2 + last * difference.s3));
   const double lost = kSquareLoss * (grown * grown + square + speed_square * last * last);
   const double reach_square = grown * grown + lost;
   const double along = square + away * last;
@@ -60,7 +59,7 @@ bool StraightOnesComeNear(const numeric::QuickBall& difference, double last) {
 // |v|; the gap is made smaller and k larger by more than that, and the step shorter by 2^-40, which
 // covers the root's own rounding.
 double EarlierBoundOfStraight(const numeric::QuickBall& difference, double limit) {
-  const double (&c)[3] = difference.c, (&v)[3] = difference.v;
+  const double(&c)[3] = difference.c, (&v)[3] = difference.v;
   const double s0 = difference.s0, s1 = difference.s1, s2 = difference.s2;
   const double speed = Length(v), span = Length(c);
   double x = 0;

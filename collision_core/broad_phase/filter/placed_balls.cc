@@ -39,9 +39,10 @@ void PlacedBalls::Resize(std::uint32_t size) {
 }
 
 FilterView PlacedBalls::view() const {
-  return {array(kX),      array(kX + 1), array(kX + 2), array(kVx), array(kVx + 1),
-          array(kVx + 2), array(kS0),    array(kS1),    array(kS2), has_cubes_ ? array(kS3) : nullptr,
-          array(kSpeed)};
+  return {
+      array(kX),      array(kX + 1), array(kX + 2), array(kVx), array(kVx + 1),
+      array(kVx + 2), array(kS0),    array(kS1),    array(kS2), has_cubes_ ? array(kS3) : nullptr,
+      array(kSpeed)};
 }
 
 void PlacedBalls::Validate(std::uint32_t count) const {

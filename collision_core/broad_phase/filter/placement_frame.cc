@@ -50,8 +50,8 @@ Sample TakeSample(const HornTable& table, Instant from) {
     }
   }
   if (count == 0) return sample;
-  for (double* sum : {&sample.v[0], &sample.v[1], &sample.v[2], &sample.s0, &sample.s1, &sample.s2,
-                      &sample.s3})
+  for (double* sum :
+       {&sample.v[0], &sample.v[1], &sample.v[2], &sample.s0, &sample.s1, &sample.s2, &sample.s3})
     *sum /= count;
   for (std::uint32_t agent = 0; agent < table.size(); agent += stride) {
     if (!table.contains(agent) || table.row(agent).unfilterable) continue;

@@ -34,7 +34,8 @@ void GridStore::PlaceAll(const PlacedScene& scene, std::vector<PlacedBall>* horn
   float least = std::numeric_limits<float>::infinity(), greatest = 0;
   for (const PlacedBall& horn : *horns) {
     extent.Add(horn);
-    const float reach = ReachAt(times.time, horn.s0, horn.s1, horn.s2, horn.s3) + times.u_max * horn.speed;
+    const float reach =
+        ReachAt(times.time, horn.s0, horn.s1, horn.s2, horn.s3) + times.u_max * horn.speed;
     least = std::min(least, reach), greatest = std::max(greatest, reach);
   }
   // The usual scene: all agents move, and reach about as far.

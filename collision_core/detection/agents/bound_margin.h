@@ -30,8 +30,8 @@ class BoundMargin {
   motion::SpaceTimeBound Widen(const motion::SpaceTimeBound& bound) const;
 
  private:
-  double position_ = 0;  ///< What is left [m].
-  double velocity_ = 0;  ///< What is left [m/s].
+  double position_ = 0;      ///< What is left [m].
+  double velocity_ = 0;      ///< What is left [m/s].
   double acceleration_ = 0;  ///< What is left [m/s²]; 0 where none is known or ages.
 };
 

@@ -43,8 +43,8 @@ BoundChange ApplyDeclaration(const AgentDeclaration& declaration, AgentRecord* r
   in_force.filter = declaration.filter;
   const bool widened =
       limits.radius > old.radius || limits.acceleration_max > old.acceleration_max ||
-      limits.jerk_max > old.jerk_max ||
-      limits.speed_max > old.speed_max || limits.time_step > old.time_step ||
+      limits.jerk_max > old.jerk_max || limits.speed_max > old.speed_max ||
+      limits.time_step > old.time_step ||
       (before.shape && (!SameBody(in_force.shape, before.shape) || spins_faster)) ||
       MayMeetMore(before.filter, in_force.filter);
   return widened ? BoundChange::kWidened : BoundChange::kWithin;
@@ -52,8 +52,7 @@ BoundChange ApplyDeclaration(const AgentDeclaration& declaration, AgentRecord* r
 
 bool IsNarrower(const motion::MotionLimits& before, const motion::MotionLimits& next) {
   return next.radius < before.radius || next.acceleration_max < before.acceleration_max ||
-         next.jerk_max < before.jerk_max ||
-         next.time_step < before.time_step;
+         next.jerk_max < before.jerk_max || next.time_step < before.time_step;
 }
 
 }  // namespace collision::detection

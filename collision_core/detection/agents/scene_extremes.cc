@@ -10,8 +10,7 @@ void SceneExtremes::Bounds::Include(const motion::SpaceTimeBound& bound) {
   newest = std::max(newest, state.stamp);
   speed_max = std::max(speed_max, state.v_WA.norm() + state.velocity_error);
   position_error_max = std::max(position_error_max, state.position_error);
-  acceleration_max =
-      std::max(acceleration_max, bound.limits.acceleration_max + state.a_WA.norm());
+  acceleration_max = std::max(acceleration_max, bound.limits.acceleration_max + state.a_WA.norm());
   jerk_max = std::max(jerk_max, bound.limits.jerk_max);
   time_step_max = std::max(time_step_max, bound.limits.time_step);
 }

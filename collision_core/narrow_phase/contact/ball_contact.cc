@@ -171,8 +171,8 @@ bool HoldsBetween(const Choice& choice, double from, double to) {
 
 Contact ContactOf(const Choice& choice, double duration) {
   const bool at_start = choice.Depth(0).lower >= 0, at_end = choice.Depth(duration).lower >= 0;
-  double inside = at_start ? 0
-                  : at_end ? duration
+  double inside = at_start            ? 0
+                  : at_end            ? duration
                   : choice.ball.bends ? NearestTimeOfBent(choice, duration)
                                       : NearestTime(choice, duration);
   if (choice.Depth(inside).lower < 0) {
@@ -339,8 +339,7 @@ SeparationAt EvaluateBallsAt(const BallSegment& a, const BallSegment& b, double 
   }
   const auto locate = [delta](const BallSegment& ball, Eigen::Vector3d& p, double& error) {
     for (const numeric::MovingBall& bound : ball.bounds) {
-      const numeric::IntervalVector centre =
-          bound.centre() + bound.PathTo(delta);
+      const numeric::IntervalVector centre = bound.centre() + bound.PathTo(delta);
       const Eigen::Vector3d middle = centre.middle();
       const double off =
           (bound.u.At(delta) + numeric::Norm(centre - numeric::IntervalVector(middle))).upper;

@@ -170,8 +170,7 @@ SweptPose ShapeMotion::SweptFrom(const Departure& from, BoundChoice choice) cons
   swept.pose = PoseAt(a_, b_, choice, from.at);
   const numeric::MovingBall& ball_a = a_.ball.bounds[choice.of_a];
   const numeric::MovingBall& ball_b = b_.ball.bounds[choice.of_b];
-  const numeric::IntervalVector velocity =
-      ball_b.VelocityAt(from.at) - ball_a.VelocityAt(from.at);
+  const numeric::IntervalVector velocity = ball_b.VelocityAt(from.at) - ball_a.VelocityAt(from.at);
   const double sign = from.direction == TimeDirection::kBackward ? -1 : 1;
   const auto seen = [&](const Eigen::Vector3d& v) {
     return Eigen::Vector3d(sign * swept.pose.R_WA.transpose() * v);
@@ -190,8 +189,7 @@ SweptPose ShapeMotion::SweptFrom(const Departure& from, BoundChoice choice) cons
   if (ball_a.bends || ball_b.bends || u.c3.upper > 0) {
     // Within the span a cube is at most the span times a square.
     const numeric::Interval cube = numeric::Interval(std::max(0.0, u.c3.upper)) * from.span;
-    swept.translation.c2 =
-        (swept.translation.c2 + cube + BendOf(ball_a, ball_b)).upper;
+    swept.translation.c2 = (swept.translation.c2 + cube + BendOf(ball_a, ball_b)).upper;
   }
   if (a_.shape) swept.turning_A = GrowthOf(a_.turns[choice.of_a], from, swept.pose.chord_A);
   if (b_.shape) swept.turning_B = GrowthOf(b_.turns[choice.of_b], from, swept.pose.chord_B);
@@ -209,8 +207,7 @@ ShapeMotion::Sweep ShapeMotion::SweepFrom(double at, double span, TimeDirection 
   sweep.touch = LowerBoundOfImpact({surface_a_, surface_b_, swept}, span, &work_, detail);
   if (sweep.touch.resolved) {
     const double h = sweep.touch.seconds;
-    const double path =
-        BendOf(a_.ball.bounds[choice.of_a], b_.ball.bounds[choice.of_b]).upper;
+    const double path = BendOf(a_.ball.bounds[choice.of_a], b_.ball.bounds[choice.of_b]).upper;
     const double bend = BendOf(a_, choice.of_a) + BendOf(b_, choice.of_b) + path;
     const double unknown =
         swept.translation.c0 + h * (swept.translation.c1 + h * (swept.translation.c2 - path));
@@ -321,9 +318,8 @@ double ShapeMotion::ContactStep(const PoseQuery& query, TimeDirection direction)
     const numeric::Interval closing =
         half * (d.along + d.translation.c1) + d.spin_most + d.turned1_most;
     const numeric::Interval growth = half * (d.translation.c2 + d.bend) + d.turned2_most;
-    step = std::max(
-        step, numeric::FirstZero(gap.lower, closing.upper, std::max(0.0, growth.upper),
-                                 std::max(0.0, (half * d.translation.c3).upper)));
+    step = std::max(step, numeric::FirstZero(gap.lower, closing.upper, std::max(0.0, growth.upper),
+                                             std::max(0.0, (half * d.translation.c3).upper)));
   }
   return step;
 }

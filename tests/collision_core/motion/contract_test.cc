@@ -246,8 +246,8 @@ TEST(ContractOfKnownMotion, HonestMotionsAreKeptAndNest) {
     before.limits.jerk_max = random.Chance(0.2) ? 0 : random.LogUniform(1e-3, 10);
     before.state.p_WA = random.LogUniform(1e-3, 1e7) * random.UnitVector();
     before.state.v_WA = random.LogUniform(1e-3, 1e4) * random.UnitVector();
-    before.state.a_WA = std::ldexp(1.0, static_cast<int>(random.Below(8)) - 6) *
-                        Eigen::Vector3d(2, -3, 6);
+    before.state.a_WA =
+        std::ldexp(1.0, static_cast<int>(random.Below(8)) - 6) * Eigen::Vector3d(2, -3, 6);
     const double s = random.LogUniform(1e-3, 10);
     const double D = before.limits.acceleration_max, J = before.limits.jerk_max;
     const Eigen::Vector3d u = (1 - 1e-12) * random.UnitVector();

@@ -22,8 +22,8 @@ SpaceTimeBound AnyBound(Random& random, double range) {
   bound.limits.acceleration_max = random.Chance(0.2) ? 0 : random.LogUniform(1e-3, 1e2);
   bound.limits.time_step = random.Chance(0.5) ? 0 : 0.125;
   if (random.Chance(0.4)) {
-    bound.state.a_WA = std::ldexp(1.0, static_cast<int>(random.Below(12)) - 8) *
-                       Eigen::Vector3d(2, -3, 6);
+    bound.state.a_WA =
+        std::ldexp(1.0, static_cast<int>(random.Below(12)) - 8) * Eigen::Vector3d(2, -3, 6);
   }
   if (random.Chance(0.3)) bound.limits.jerk_max = random.LogUniform(1e-3, 1e2);
   return bound;

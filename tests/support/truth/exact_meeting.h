@@ -30,10 +30,11 @@ class ExactMeeting {
       : a_(a, base, options.up), b_(b, base, options.up), share_(options.share) {
     for (int i = 0; i < 3; ++i) {
       between_[i] = Metres(Dyadic(b.state.p_WA[i]) - Dyadic(a.state.p_WA[i]));
-      magnitude_ = magnitude_ + DyadicPolynomial{between_[i].Magnitude()} + a_.MagnitudesAt0(i) +
-                   b_.MagnitudesAt0(i) +
-                   DyadicPolynomial{{}, (b_.Slope(i) - a_.Slope(i)).Magnitude(),
-                                    (b_.Bend(i) - a_.Bend(i)).Magnitude()};
+      magnitude_ =
+          magnitude_ + DyadicPolynomial{between_[i].Magnitude()} + a_.MagnitudesAt0(i) +
+          b_.MagnitudesAt0(i) +
+          DyadicPolynomial{
+              {}, (b_.Slope(i) - a_.Slope(i)).Magnitude(), (b_.Bend(i) - a_.Bend(i)).Magnitude()};
     }
     radii_ = Metres(Dyadic(a.limits.radius) + Dyadic(b.limits.radius));
     AddBallTests();
@@ -126,9 +127,7 @@ class ExactMeeting {
     Dyadic Slope(int i) const {
       return Speed(bound.state.v_WA[i]) + Acceleration(bound.state.a_WA[i]) * since;
     }
-    Dyadic LineAt0(int i) const {
-      return (Speed(bound.state.v_WA[i]) + Bend(i) * since) * since;
-    }
+    Dyadic LineAt0(int i) const { return (Speed(bound.state.v_WA[i]) + Bend(i) * since) * since; }
     /// Of the terms whose sums those are: what rounding is relative to.
     DyadicPolynomial MagnitudesAt0(int i) const {
       const Dyadic faster = (Acceleration(bound.state.a_WA[i]) * since).Magnitude();
@@ -179,9 +178,8 @@ class ExactMeeting {
       if (!HasSpeedCap(bound.limits)) return {horn};
       const motion::DirectionalReach reach =
           holds ? ReachOfDirection(bound.state) : motion::DirectionalReach();
-      const Instant takes_over =
-          FaceCapStartOf(bound, {axis, sign},
-                         (sign > 0 ? reach.upward : reach.downward)[axis].upper);
+      const Instant takes_over = FaceCapStartOf(
+          bound, {axis, sign}, (sign > 0 ? reach.upward : reach.downward)[axis].upper);
       if (takes_over.is_never()) return {horn};
       const Dyadic from = Between(base, takes_over);
       Reach cap{from.Sign() < 0 ? Dyadic() : from, {}, Capped(horn.u, from)};

@@ -150,10 +150,10 @@ inline std::vector<Dyadic> BernsteinOf(DyadicPolynomial c, const Dyadic& width) 
   // 12 b_k = 12 Σ_i C(k, i) / C(4, i) c_i width^i, and 60 b_k with C(6, i).
   static constexpr int kOf4[5][5] = {
       {12, 0, 0, 0, 0}, {12, 3, 0, 0, 0}, {12, 6, 2, 0, 0}, {12, 9, 6, 3, 0}, {12, 12, 12, 12, 12}};
-  static constexpr int kOf6[7][7] = {
-      {60, 0, 0, 0, 0, 0, 0},      {60, 10, 0, 0, 0, 0, 0},     {60, 20, 4, 0, 0, 0, 0},
-      {60, 30, 12, 3, 0, 0, 0},    {60, 40, 24, 12, 4, 0, 0},   {60, 50, 40, 30, 20, 10, 0},
-      {60, 60, 60, 60, 60, 60, 60}};
+  static constexpr int kOf6[7][7] = {{60, 0, 0, 0, 0, 0, 0},      {60, 10, 0, 0, 0, 0, 0},
+                                     {60, 20, 4, 0, 0, 0, 0},     {60, 30, 12, 3, 0, 0, 0},
+                                     {60, 40, 24, 12, 4, 0, 0},   {60, 50, 40, 30, 20, 10, 0},
+                                     {60, 60, 60, 60, 60, 60, 60}};
   const std::size_t size = c.size() > 5 ? 7 : 5;
   c.resize(size);
   Dyadic power = width;
@@ -164,8 +164,7 @@ inline std::vector<Dyadic> BernsteinOf(DyadicPolynomial c, const Dyadic& width) 
   std::vector<Dyadic> bernstein(size);
   for (std::size_t k = 0; k < size; ++k) {
     for (std::size_t i = 0; i <= k; ++i) {
-      bernstein[k] =
-          bernstein[k] + Dyadic::Integer(size == 7 ? kOf6[k][i] : kOf4[k][i]) * c[i];
+      bernstein[k] = bernstein[k] + Dyadic::Integer(size == 7 ? kOf6[k][i] : kOf4[k][i]) * c[i];
     }
   }
   return bernstein;

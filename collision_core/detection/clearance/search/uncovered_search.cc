@@ -35,8 +35,7 @@ struct Mover {
 double PathOf(const motion::SpaceTimeBound& bound, double t) {
   const motion::MotionLimits& limits = bound.limits;
   return Mover{bound.state.v_WA.norm() + bound.state.velocity_error,
-               limits.acceleration_max + bound.state.a_WA.norm(), limits.jerk_max,
-               limits.time_step}
+               limits.acceleration_max + bound.state.a_WA.norm(), limits.jerk_max, limits.time_step}
       .Path(t);
 }
 

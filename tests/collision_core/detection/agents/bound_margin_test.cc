@@ -73,8 +73,7 @@ TEST(BoundMargin, AJumpMayHaveComeEarlier) {
 //         bound counts as unknown; an agent that knows none has none.
 TEST(BoundMargin, KnownAccelerationsHaveTheirOwn) {
   motion::SpaceTimeBound bound = Moving();
-  EXPECT_EQ(BoundMargin(bound).Widen(bound).limits.acceleration_max,
-            bound.limits.acceleration_max);
+  EXPECT_EQ(BoundMargin(bound).Widen(bound).limits.acceleration_max, bound.limits.acceleration_max);
   bound.state.a_WA = {0, 6, 8};
   bound.limits.acceleration_max = 0;
   bound.limits.jerk_max = 3;
