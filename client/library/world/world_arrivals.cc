@@ -127,7 +127,7 @@ void World::Implementation::Handle(const v1::Rejection& rejection, CurrentServic
 }
 
 void World::Implementation::Handle(const v1::ServiceHello& hello) {
-  simulated_clock_ = hello.clock_kind() == v1::CLOCK_LOCK_STEP;
+  world_lock_step_ = hello.clock_kind() == v1::CLOCK_LOCK_STEP;
   if (auto mismatch = fit_.Hear(hello)) {
     mismatch->simulator = simulator_id_;
     Keep(*mismatch);
