@@ -169,7 +169,8 @@ struct Rejection {
   std::string field;
   std::string detail;
   std::uint64_t count = 0;  ///< Of all rejections of this simulator so far.
-  /// Sending it again does not help: a value out of range, no room. False for what was late or lost.
+  /// Sending it again does not help: a value out of range, no room. False for what was late or
+  /// lost.
   bool lasting = false;
 };
 

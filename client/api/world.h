@@ -170,11 +170,11 @@ class World {
   void OnWaiting(std::function<void(const std::vector<std::string>&)> callback);
 
   /// Calls back for what the user of this simulator should know: no service is heard, it runs with
-  /// a clock of the other kind, time waits for somebody, something is refused (client/api/notice.h).
-  /// Each cause is told once, what lasts again every 60 s, and what is over once. Empty, as at the
-  /// start: they go to standard error, "SIMULATOR: TEXT". They are noticed and told inside Poll(),
-  /// AdvanceTo(), WaitForService() and Join(), which pass on what the callback throws. Otherwise
-  /// the rules are those of OnEvent().
+  /// a clock of the other kind, time waits for somebody, something is refused
+  /// (client/api/notice.h). Each cause is told once, what lasts again every 60 s, and what is over
+  /// once. Empty, as at the start: they go to standard error, "SIMULATOR: TEXT". They are noticed
+  /// and told inside Poll(), AdvanceTo(), WaitForService() and Join(), which pass on what the
+  /// callback throws. Otherwise the rules are those of OnEvent().
   void OnNotice(std::function<void(const Notice&)> callback);
 
   /// What has been set and sent so far.

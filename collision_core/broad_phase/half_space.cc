@@ -13,8 +13,8 @@ namespace {
 
 /// The first δ >= 0, rounded down, at which the ball may have come to the plane. The distance to
 /// it, times |n|, is a cubic that no tangent has to bound:
-///   (n·(p + shift) − offset − |n| (r + margin + u0)) − (|n| u1 − n·v) δ − (|n| u2 − n·h) δ² − |n| u3
-///   δ³.
+///   (n·(p + shift) − offset − |n| (r + margin + u0)) − (|n| u1 − n·v) δ − (|n| u2 − n·h) δ² − |n|
+///   u3 δ³.
 /// Positions first: far from the origin only what the inputs lost is lost.
 double FirstReach(const HalfSpace& half_space, const numeric::MovingBall& ball, double margin) {
   const numeric::IntervalVector n(half_space.normal);

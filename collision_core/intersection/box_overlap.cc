@@ -105,9 +105,9 @@ class Condition {
   numeric::Cubic value_[3];
 };
 
-/// Rounds at most. A condition that is convex and has recovered never fails again, so six rounds find
-/// the end of the last failure. With known accelerations one may fail again; then the time found so
-/// far is returned at the bound: early, never late.
+/// Rounds at most. A condition that is convex and has recovered never fails again, so six rounds
+/// find the end of the last failure. With known accelerations one may fail again; then the time
+/// found so far is returned at the bound: early, never late.
 constexpr int kRoundsMax = 64;
 
 /// The first time from `start` on at which all six may hold, rounded down; may be +infinity.

@@ -55,8 +55,8 @@ void Bend(const motion::SpaceTimeBound& bound, double tau, RoundedHorn* horn) {
   ball.s0 += ball.s3 * (sigma * (sigma * sigma + 3 * step * whole));
 }
 
-/// The centre v τ is off by 3ε. All terms of the reach u are positive: σ is off by 3ε, σ + h by 4ε, a
-/// product of both by 9ε, |v| κ by 4ε, and the sums make it 13ε.
+/// The centre v τ is off by 3ε. All terms of the reach u are positive: σ is off by 3ε, σ + h by
+/// 4ε, a product of both by 9ε, |v| κ by 4ε, and the sums make it 13ε.
 RoundedHorn Rounded(const motion::SpaceTimeBound& bound, Instant base) {
   const Eigen::Vector3d& v = bound.state.v_WA;
   const double tau = Seconds(bound.state.stamp, base), sigma = tau + bound.skew;
@@ -80,9 +80,9 @@ struct RoundingCosts {
   double reach, distance, velocity;
 };
 
-/// The reach: the 13ε of each ball, and the sums of five terms. The centre's terms p_B − p_A, v_B τ_B
-/// and v_A τ_A are off by 3ε at most, and two more sums make it 5ε. The velocity v_B − v_A is off by
-/// ε, and summing the magnitudes costs something.
+/// The reach: the 13ε of each ball, and the sums of five terms. The centre's terms p_B − p_A, v_B
+/// τ_B and v_A τ_A are off by 3ε at most, and two more sums make it 5ε. The velocity v_B − v_A is
+/// off by ε, and summing the magnitudes costs something.
 constexpr RoundingCosts kStraight{20 * numeric::kUnitRoundoff, 6 * numeric::kUnitRoundoff,
                                   2 * numeric::kUnitRoundoff};
 

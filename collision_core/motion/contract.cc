@@ -79,9 +79,9 @@ struct Limits {
   numeric::Interval position, velocity, acceleration;
 };
 
-/// ½ D σ (σ + d) + ⅙ J σ (σ² + 3 m σ + 3 m²), D σ + ½ J σ (σ + 2 m) and J σ: what the unknown part of
-/// the acceleration does in σ. Given σ + d; of a motion d = m = h, of what two horns do not share d =
-/// 2 κ + h and m = κ + h.
+/// ½ D σ (σ + d) + ⅙ J σ (σ² + 3 m σ + 3 m²), D σ + ½ J σ (σ + 2 m) and J σ: what the unknown part
+/// of the acceleration does in σ. Given σ + d; of a motion d = m = h, of what two horns do not
+/// share d = 2 κ + h and m = κ + h.
 Limits OfUnknownPart(const MotionLimits& limits, numeric::Interval sigma,
                      numeric::Interval lengthened, numeric::Interval m) {
   const numeric::Interval acceleration_max = limits.acceleration_max;

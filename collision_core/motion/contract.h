@@ -75,13 +75,13 @@ enum class OrientationUse { kMatters, kIgnored };
 ///   |e_v| <= ε_v − ε_v' + D s + ½ J s (s + 2 m) + (κ + ½ h) (|a| − |a'|)
 ///   |e_a| <= J s
 ///
-/// So a sender whose guess of a is wrong by more than has aged is *widened*: its estimate of what it
-/// does not know points elsewhere. Where D bounds how wrong the guesses are, declare J no less than
-/// twice D over the time between two states and they are kept. Then the state is *kept*. If errors and skew (of both stamps: 2 κ) still explain it, it is
-/// *widened*, else *breached*. A motion against a direction that held all the way is a breach; a
-/// half ball of e_p and one of e_v add up to the half ball of the old horn, so a kept state's box
-/// lies inside the old box too. For rotations, with Φ_e the angle from the prediction to q', the
-/// conditions are
+/// So a sender whose guess of a is wrong by more than has aged is *widened*: its estimate of what
+/// it does not know points elsewhere. Where D bounds how wrong the guesses are, declare J no less
+/// than twice D over the time between two states and they are kept. Then the state is *kept*. If
+/// errors and skew (of both stamps: 2 κ) still explain it, it is *widened*, else *breached*. A
+/// motion against a direction that held all the way is a breach; a half ball of e_p and one of e_v
+/// add up to the half ball of the old horn, so a kept state's box lies inside the old box too. For
+/// rotations, with Φ_e the angle from the prediction to q', the conditions are
 ///
 ///   Φ_e <= ε_R − ε_R' + (|ω| − |ω'|) κ + ½ α s (s + 2 κ + h)   and   |ω' − ω| <= α s.
 ///
@@ -91,9 +91,9 @@ enum class OrientationUse { kMatters, kIgnored };
 /// Rounding allowance. The sums of an honest integrator are off by up to a unit in the last place
 /// of p a step, which rounds twice; over at most 1000 steps between two states that is 1000 · 2^-52
 /// |p|, likewise for v, and the error of v moves p for s. A stamp in whole nanoseconds is off by
-/// half of one, so s by up to 1 ns: |v| · 1 ns and A · 1 ns, A the greatest acceleration; of a itself
-/// a unit in the last place a step, and J · 1 ns. For the angle it is 1000 · 2^-49 rad
-/// (the exponential and the product of each step), the error of ω for s, and |ω| · 1 ns. What is
+/// half of one, so s by up to 1 ns: |v| · 1 ns and A · 1 ns, A the greatest acceleration; of a
+/// itself a unit in the last place a step, and J · 1 ns. For the angle it is 1000 · 2^-49 rad (the
+/// exponential and the product of each step), the error of ω for s, and |ω| · 1 ns. What is
 /// actually used is returned as drift: the published bounds must leave that much room.
 ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next,
                             OrientationUse orientation = OrientationUse::kMatters);

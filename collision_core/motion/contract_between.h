@@ -19,12 +19,12 @@ namespace collision::motion {
 ///
 /// Derivation. Δ(s) is the offset of the forward ball's centre from the backward ball's. For a true
 /// motion without a known part −Δ(s) = ∫ (s − t) x″ dt, so |Δ(s)| <= D ∫ |s − t| dt = ½ D s² + ½ D
-/// (T − s)², the sum of both radii; with errors, skew, step, known accelerations and jerk both horns
-/// hold as they are. s = T is the check of the position, s = 0 the same backward in time, and s → ∞
-/// that of the velocity. Together these are the bounds of λ · ∫ (s − t) x″ dt for every vector λ:
-/// along one line a motion exists if and only if the result is 0 and |v' − v| <= D T; across it,
-/// where thrust may turn, the check leaves a little more than can be reached. Only 0 <= s <= T is
-/// searched: with the velocity's bound the rest follows.
+/// (T − s)², the sum of both radii; with errors, skew, step, known accelerations and jerk both
+/// horns hold as they are. s = T is the check of the position, s = 0 the same backward in time,
+/// and s → ∞ that of the velocity. Together these are the bounds of λ · ∫ (s − t) x″ dt for every
+/// vector λ: along one line a motion exists if and only if the result is 0 and |v' − v| <= D T;
+/// across it, where thrust may turn, the check leaves a little more than can be reached. Only 0 <=
+/// s <= T is searched: with the velocity's bound the rest follows.
 ///
 /// Which s is tested comes from plain doubles; that the balls are apart there is proved in
 /// intervals, beyond the rounding allowance of p' and, for T, of v' (contract.h).

@@ -70,8 +70,8 @@ class Comparison {
   }
 
   /// What that adds: the velocities of the new ball fill the cap's, those of the old one fall short
-  /// of it by 2 |v| + M t in the direction −v, t before it turns `at`; of a face by M t. With a known
-  /// acceleration or jerk: by V' and the speed of the horn's centre at most.
+  /// of it by 2 |v| + M t in the direction −v, t before it turns `at`; of a face by M t. With a
+  /// known acceleration or jerk: by V' and the speed of the horn's centre at most.
   numeric::Interval EarlyGrowth(numeric::Interval shortfall, double early, Instant at) const {
     if (early == numeric::kInfinity) return {0, numeric::kInfinity};
     const numeric::Interval all = early;

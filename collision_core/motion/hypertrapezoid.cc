@@ -45,7 +45,7 @@ Hypertrapezoid MakeHypertrapezoid(const SpaceTimeBound& bound, Instant start, In
     h.upper_end[axis] = last.upper[axis].upper;
     const double known = bound.state.a_WA[axis];
     if (known != 0) {
-      const double bulge = (numeric::Interval(0.125) * std::abs(known) * Square(duration)).upper;
+      const double bulge = (std::abs(known) / numeric::Interval(8) * Square(duration)).upper;
       double(&start_of)[3] = known > 0 ? h.lower_start : h.upper_start;
       double(&end_of)[3] = known > 0 ? h.lower_end : h.upper_end;
       const auto outward = [&](double face) {

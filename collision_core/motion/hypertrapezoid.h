@@ -10,8 +10,9 @@ namespace collision::motion {
 /// acceleration is known, the faces of the horn's box are convex in time, so a chord never cuts
 /// inside. A known acceleration that pulls a face inward bends it at most at that rate a: over a
 /// window of T the face bulges out of its chord by at most ⅛ a T², by which both ends are moved
-/// outward. Values are rounded outward; a face at time t is the mean of its two ends, weighted by the exact fraction of the window. World frame
-/// W, metres. Source: Hubbard 1995 (space_time_bound.h), section 3.
+/// outward. Values are rounded outward; a face at time t is the mean of its two ends, weighted by
+/// the exact fraction of the window. World frame W, metres. Source: Hubbard 1995
+/// (space_time_bound.h), section 3.
 struct Hypertrapezoid {
   Instant start;
   double duration = 0;                  ///< Length of the window [s], rounded down.

@@ -1,9 +1,10 @@
 // Where an agent can be, given only one state.
 //
 // The bound is a ball that moves and grows. It is known at the stamp: position p, velocity v,
-// acceleration a (zero, if none is known), and the radius r of a ball about the reference point that
-// contains the agent in every orientation. With τ = t − stamp, all of the agent lies within r + u(t)
-// of c(t) = p + v τ + ½ a τ². The term u(t) collects everything that is not known, with σ = |τ| + κ:
+// acceleration a (zero, if none is known), and the radius r of a ball about the reference point
+// that contains the agent in every orientation. With τ = t − stamp, all of the agent lies within r
+// + u(t) of c(t) = p + v τ + ½ a τ². The term u(t) collects everything that is not known, with σ =
+// |τ| + κ:
 //
 //   u(t) = ε_p + |v| κ + ε_v σ + ½ D σ (σ + h) + ⅙ J σ (σ² + 3 h σ + 3 h²) + |a| (κ + ½ h) σ
 //
@@ -15,7 +16,8 @@
 //   and |e_v| <= ε_v, so the centre is off by |e_p + e_v τ| <= ε_p + ε_v |τ|.
 // - κ, the clock skew. The stamp is off by some θ with |θ| <= κ: the state held at stamp + θ.
 //   Uniform motion from there is off by |v θ| <= |v| κ, the bend by ½ |a| |τ² − (τ − θ)²| <= |a| κ
-//   (|τ| + ½ κ) <= |a| κ σ, and errors and accelerations have had |τ − θ| <= σ to work. So σ replaces
+//   (|τ| + ½ κ) <= |a| κ σ, and errors and accelerations have had |τ − θ| <= σ to work. So σ
+//   replaces
 //   |τ| in all other terms.
 // - h, the time step of the sender's integrator. Semi-implicit Euler sets v ← v + a_k h, then p ← p
 //   + v h. After n steps e = Σ a_k h² (n − k) over k = 0 … n − 1, so |e| <= ½ D h² n (n + 1) = ½ D
@@ -23,19 +25,20 @@
 //   the same term covers. Explicit Euler (p first, then v) is the same run backward: ½ D τ (τ − h)
 //   forward and ½ D τ (τ + h) backward. Between two steps the motion counted is p + v s + ½ a s (s
 //   + h) for s in [0, h], which meets the states at both ends: with τ = n h + s, |e| <= D (½ n (n +
-//   1) h² + n h s + ½ s (s + h)) = ½ D τ (τ + h). The known a is stepped likewise, to ½ a τ (τ ± h):
-//   off by ½ |a| h τ. Step k deviates by up to J (k + 1) h, so n steps by J h³ Σ (k + 1) (n − k) =
-//   ⅙ J h³ n (n + 1) (n + 2); ⅙ J ((τ + h)³ − h³), the term above, is no less at τ = n h, neither is
-//   its slope there less than J h² ½ (n + 1)² (with the ½ J (n + 1) h² that the next step adds at
-//   once), nor its second derivative J (τ + h) than J (n + 1) h. A sender that draws straight lines
-//   between steps deviates by up to (|a| + D + J τ) h² / 8 more and should declare that as part of
-//   ε_p.
+//   1) h² + n h s + ½ s (s + h)) = ½ D τ (τ + h). The known a is stepped likewise, to ½ a τ (τ ±
+//   h): off by ½ |a| h τ. Step k deviates by up to J (k + 1) h, so n steps by J h³ Σ (k + 1) (n −
+//   k) = ⅙ J h³ n (n + 1) (n + 2); ⅙ J ((τ + h)³ − h³), the term above, is no less at τ = n h,
+//   neither is its slope there less than J h² ½ (n + 1)² (with the ½ J (n + 1) h² that the next
+//   step adds at once), nor its second derivative J (τ + h) than J (n + 1) h. A sender that draws
+//   straight lines between steps deviates by up to (|a| + D + J τ) h² / 8 more and should declare
+//   that as part of ε_p.
 //
 // A declared direction d, with (x″ − a)·d >= 0 as long as it holds, halves the ball of deviations:
-// e·d >= 0 and |e| <= R = ½ D σ (σ + h) + ⅙ J σ (σ² + 3 h σ + 3 h²). The half ball reaches towards a unit vector x by R if x·d >= 0,
-// else by its rim's R √(1 − (x·d)²); for the axes that is R √(d_y² + d_z²) and so on. d need not
-// have the exact length 1: the code divides by its length. By our clock the direction may end κ
-// early, so it counts until direction_until − κ; from then on the full ball counts.
+// e·d >= 0 and |e| <= R = ½ D σ (σ + h) + ⅙ J σ (σ² + 3 h σ + 3 h²). The half ball reaches towards
+// a unit vector x by R if x·d >= 0, else by its rim's R √(1 − (x·d)²); for the axes that is R
+// √(d_y² + d_z²) and so on. d need not have the exact length 1: the code divides by its length. By
+// our clock the direction may end κ early, so it counts until direction_until − κ; from then on
+// the full ball counts.
 //
 // An expiry limits promises, not the bound; it is read by our clock.
 #pragma once
@@ -46,10 +49,12 @@
 namespace collision::motion {
 
 /// Everything that agent A can reach while |acceleration − a_WA| <= D + J |τ|, given its state at
-/// `state.stamp`: in space-time a horn. With τ = t − stamp and σ = |τ| + κ all of A lies in the ball
+/// `state.stamp`: in space-time a horn. With τ = t − stamp and σ = |τ| + κ all of A lies in the
+/// ball
 ///
 ///   centre c(t) = p_WA + v_WA τ + ½ a_WA τ²,   radius ρ(t) = r + u(t),
-///   u(t) = ε_p + |v_WA| κ + ε_v σ + ½ D σ (σ + h) + ⅙ J σ (σ² + 3 h σ + 3 h²) + |a_WA| (κ + ½ h) σ.
+///   u(t) = ε_p + |v_WA| κ + ε_v σ + ½ D σ (σ + h) + ⅙ J σ (σ² + 3 h σ + 3 h²) + |a_WA| (κ + ½ h)
+///   σ.
 ///
 /// It holds forward (τ >= 0) up to the next discontinuity, and backward (τ <= 0) down to the last
 /// one. The terms are derived at the head of this file. World frame W, SI units. Source: Hubbard,
@@ -96,8 +101,8 @@ numeric::Cubic ForwardDeviation(const SpaceTimeBound& bound, Instant base);
 numeric::Cubic ForwardErrors(const SpaceTimeBound& bound, Instant base);
 
 /// How far the deviation reaches along each axis while the declared direction d holds, as a
-/// fraction of ForwardDeviation(): towards +x it is 1 if d_x >= 0, else √(d_y² + d_z²); towards −x as if
-/// d were −d.
+/// fraction of ForwardDeviation(): towards +x it is 1 if d_x >= 0, else √(d_y² + d_z²); towards −x
+/// as if d were −d.
 struct DirectionalReach {
   numeric::Interval upward[3] = {1, 1, 1};
   numeric::Interval downward[3] = {1, 1, 1};

@@ -18,16 +18,15 @@ namespace collision::motion {
 /// beside the horn; of everything that separates two agents the latest counts, as for balls and
 /// boxes:
 ///
-/// - The *capped ball* is the horn's ball until |v| + ε_v + (D + |a|) σ + ½ J σ'² = V, σ' = σ + 2 κ +
-///   h. From that
-///   instant on, its centre stays where the horn's centre then is, and its radius grows at the rate
-///   V'. Before it, every velocity of the horn is below V; after it, the ball allows every velocity
-///   up to V'.
+/// - The *capped ball* is the horn's ball until |v| + ε_v + (D + |a|) σ + ½ J σ'² = V, σ' = σ + 2
+///   κ + h. From that instant on, its centre stays where the horn's centre then is, and its radius
+///   grows at the rate V'. Before it, every velocity of the horn is below V; after it, the ball
+///   allows every velocity up to V'.
 /// - The *capped box*: each face with normal x follows the horn until v_x + ε_v + |a| κ + (f D +
-///   max(0, a_x)) σ + ½ f J σ'² + ½ f D h = V + ½ D h, then has the slope V' (f is the fraction that a declared direction
-///   leaves). That is min(v_x + D τ, V) integrated, not the lesser of two positions, so its slopes
-///   never fall: without a known acceleration faces are convex, and a chord over a window never cuts
-///   inside (hypertrapezoid.h).
+///   max(0, a_x)) σ + ½ f J σ'² + ½ f D h = V + ½ D h, then has the slope V' (f is the fraction
+///   that a declared direction leaves). That is min(v_x + D τ, V) integrated, not the lesser of
+///   two positions, so its slopes never fall: without a known acceleration faces are convex, and a
+///   chord over a window never cuts inside (hypertrapezoid.h).
 ///
 /// The instants of change are whole nanoseconds, rounded down (at once, if within 2^-40 V of the
 /// cap). Any instant would be sound, so nothing depends on the rounding.
@@ -40,14 +39,14 @@ namespace collision::motion {
 /// the reach grows like |v| τ + ½ M τ² until the speed is V, and at the rate V from then on.
 ///
 /// Nesting. Let T be the time at which the old ball changes, |v| + ε_v + (D + |a|) (T + κ) + ½ J (T
-/// + 3 κ + h)² = V. With |e_v| <= ε_v − ε_v' + D s + ½ J s (s + 2 (κ + h)), |v'| <= |v| + |a| s + |e_v| and |a'| <= |a| +
-/// J s the new one changes at T' >= T − s, which is later. While both are horns,
-/// the conditions of contract.h apply. From T on the old ball grows by all velocities up to V',
-/// which include every velocity of the new one, before T' and after. So the new ball need only be
-/// inside at its own stamp, or, if the old one has not changed by then, when it does; for s > T
+/// + 3 κ + h)² = V. With |e_v| <= ε_v − ε_v' + D s + ½ J s (s + 2 (κ + h)), |v'| <= |v| + |a| s +
+/// |e_v| and |a'| <= |a| + J s the new one changes at T' >= T − s, which is later. While both are
+/// horns, the conditions of contract.h apply. From T on the old ball grows by all velocities up to
+/// V', which include every velocity of the new one, before T' and after. So the new ball need only
+/// be inside at its own stamp, or, if the old one has not changed by then, when it does; for s > T
 /// that means that U'(0) lies in the capped ball. For faces the same holds with the slopes of one
-/// direction. If rounding makes T' earlier by x after all, the balls differ by (2 |v + a T| + A x) x
-/// and the faces by A x², A = D + |a| + J (T + κ): that is reported as drift.
+/// direction. If rounding makes T' earlier by x after all, the balls differ by (2 |v + a T| + A x)
+/// x and the faces by A x², A = D + |a| + J (T + κ): that is reported as drift.
 ///
 /// Breach: |v'| > V + ε_v', or p' farther from where the cap took over than errors, 2 κ and V'
 /// explain, beyond the rounding allowance. Changing or dropping a cap is a widening, also lowering

@@ -58,8 +58,8 @@ struct View {
         length(Norm(n)),
         reach(reach_upper.From(delta)) {}
 
-  /// |d + w x + h x²| >= n·(d + w x + h x²) / |n|: a tangent of the convex length. A reach that runs
-  /// backward loses its last term: for x >= 0 that only makes it larger.
+  /// |d + w x + h x²| >= n·(d + w x + h x²) / |n|: a tangent of the convex length. A reach that
+  /// runs backward loses its last term: for x >= 0 that only makes it larger.
   GapBound Tangent() const {
     return {(Dot(n, d) / length - reach.c0).lower, (reach.c1 - Dot(n, w) / length).upper,
             bends ? (reach.c2 - Dot(n, h) / length).upper : reach.c2.upper,

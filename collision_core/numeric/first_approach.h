@@ -2,17 +2,17 @@
 //
 // At δ, with n along d = d0 + w δ + h δ² (h is half the difference of the known accelerations), the
 // distance has the tangent |d(δ + x)| >= n·(d + (w + 2 h δ) x + h x²) / |n| for all x, whatever n
-// is. Less the reach this is a cubic in x, bounded below by intervals; until its first zero, rounded
-// down, nothing can meet. That is Newton's step on a lower bound: never past the root, quadratic
-// near a simple root, halving near a double one. Without known accelerations and jerk it is a
-// quadratic, bit for bit.
+// is. Less the reach this is a cubic in x, bounded below by intervals; until its first zero,
+// rounded down, nothing can meet. That is Newton's step on a lower bound: never past the root,
+// quadratic near a simple root, halving near a double one. Without known accelerations and jerk it
+// is a quadratic, bit for bit.
 //
 // Near a triple root (distance and reach agree in value, slope and curvature) the tangent step
 // makes little progress. After eight steps the bound therefore adds the curvature of the distance.
 // Let y be the component of the centre along n and z the one perpendicular to n; then on [0, x_max]
-// the distance is at least y + |z|² / (2 · the greatest distance there). No tested distribution needs more than 120
-// of the 400 steps allowed; after 400 steps the time certified so far is returned: early, never
-// late.
+// the distance is at least y + |z|² / (2 · the greatest distance there). No tested distribution
+// needs more than 120 of the 400 steps allowed; after 400 steps the time certified so far is
+// returned: early, never late.
 //
 // The search stops where the gap is no longer certified positive, or where a step is shorter than
 // 2^-50 δ. Both mean that a few units in the last place of the inputs decide. Two agents that

@@ -71,8 +71,8 @@ struct Scales {
 /// C and V are the sums of |c_i| and |v_i|. Squares, two sums and the root give |x| with 3ε:
 /// squares ε, sums 2ε, halved by the root, and its own ε. The reach S = s0 + δ (s1 + δ s2) has four
 /// roundings, the difference one more. Together less than 6ε (C + V δ) + 6ε S, second order
-/// included. With x_i = c_i + δ (v_i + δ h_i) each term has up to four roundings, together 4ε (C + V
-/// δ + H δ²); S has six: less than 8ε of all.
+/// included. With x_i = c_i + δ (v_i + δ h_i) each term has up to four roundings, together 4ε (C +
+/// V δ + H δ²); S has six: less than 8ε of all.
 ///
 /// Slope. The tangent holds for any direction, so x is one without error. x·v has three roundings a
 /// term, |x| 3ε and the quotient one: 7ε V. s1 + 2 δ s2 has three roundings, the difference one
@@ -167,7 +167,7 @@ double StepWithJerk(double gap, double closing, double growth, double jerk) {
   if (!(jerk * end * end * end <= gap)) end = CubeRoot(gap / jerk);
   double step = 0;
   for (int round = 0; round < kRoundsOfJerk; ++round) {
-    const double zero = Step(gap, closing, (growth + jerk * end) * (1 + 4 * kUnitRoundoff));
+    const double zero = Step(gap, closing, (growth + jerk * end) * kFewRoundingsUp);
     if (!(zero < kInfinity)) return NAN;
     step = std::max(step, std::min(zero, end));
     if (!(zero < end)) break;

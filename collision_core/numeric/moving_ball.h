@@ -81,8 +81,8 @@ inline MovingBall Difference(const MovingBall& a, const MovingBall& b, double ma
 }
 
 /// A ball in plain doubles: at δ >= 0 [s] within s0 + s1 δ + s2 δ² + s3 δ³ [m] of c + v δ + bend δ²
-/// [m], where all s are >= 0. The rows of the filter include their own rounding in the reach. Difference() and
-/// QuickHornPair() round to nearest and account for it where they are used.
+/// [m], where all s are >= 0. The rows of the filter include their own rounding in the reach.
+/// Difference() and QuickHornPair() round to nearest and account for it where they are used.
 struct QuickBall {
   double c[3];
   double v[3];

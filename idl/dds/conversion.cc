@@ -99,7 +99,8 @@ FIELDS(AgentDescription,
        VALUE(simulator_id) VALUE(slot) VALUE(incarnation) VALUE(run) VALUE(generation)
        VALUE(revision) VALUE(sequence) VALUE(states_sequence) TEXT(simulator_name)
        TEXT(agent_name) VALUE(radius_m)
-       VALUE(acceleration_max_m_s2) VALUE(jerk_max_m_s3) VALUE(angular_acceleration_max_rad_s2) VALUE(speed_max_m_s)
+       VALUE(acceleration_max_m_s2) VALUE(jerk_max_m_s3)
+       VALUE(angular_acceleration_max_rad_s2) VALUE(speed_max_m_s)
        VALUE(time_step_s) TEXT(class_name) VALUE(margin_m) HASH(shape_hash) TEXT(assembly)
        LIST(meets_in_assembly, wire::kPartnersListedMax)
        LIST(never_meets, wire::kPartnersListedMax) LIST(tags, wire::kTagsMax))
@@ -110,7 +111,8 @@ FIELDS(ShapePart,
 
 FIELDS(AgentState,
        VALUE(slot) VALUE(generation) VALUE(stamp_ns) VALUE(sequence) MESSAGE(position_m)
-       MESSAGE(velocity_m_s) MESSAGE(acceleration_m_s2) MESSAGE(orientation) MESSAGE(angular_velocity_rad_s)
+       MESSAGE(velocity_m_s) MESSAGE(acceleration_m_s2) MESSAGE(orientation)
+       MESSAGE(angular_velocity_rad_s)
        VALUE(position_error_m) VALUE(velocity_error_m_s) VALUE(rotation_error_rad)
        MESSAGE(thrust_direction) VALUE(direction_until_ns) VALUE(expiry_ns) VALUE(discontinuity))
 

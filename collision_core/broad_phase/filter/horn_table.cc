@@ -39,8 +39,8 @@ void Bend(const motion::SpaceTimeBound& bound, numeric::QuickBall* ball) {
 
 }  // namespace
 
-// The centre is a polynomial, as exact before the stamp as after it; what its terms and those of its
-// slope lose is added to the reach.
+// The centre is a polynomial, as exact before the stamp as after it; what its terms and those of
+// its slope lose is added to the reach.
 void HornTable::BendAt(const HornRow& row, double line, double tau, numeric::QuickBall* at) {
   const numeric::QuickBall& from = row.ball;
   double bent = 0, faster = 0;

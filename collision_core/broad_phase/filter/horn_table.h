@@ -46,8 +46,8 @@ static_assert(sizeof(HornRow) == 128, "a row is two lines of the cache");
 inline constexpr double kLineRounding = 0x1p-48;
 
 /// All bounds by index. For an agent that declares no more than radius and acceleration, and lists
-/// no partners, the row of 128 bytes is everything that is kept beside its name: the bound itself is
-/// made again from it, bit for bit, for the few pairs that reach the canonical routine. Other
+/// no partners, the row of 128 bytes is everything that is kept beside its name: the bound itself
+/// is made again from it, bit for bit, for the few pairs that reach the canonical routine. Other
 /// bounds and filters are kept whole beside their rows.
 class HornTable {
  public:

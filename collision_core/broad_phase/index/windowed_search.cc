@@ -231,7 +231,8 @@ void WindowedSearch::FindAllBut(std::uint32_t agent) {
 }
 
 // Placed balls have SphereFilter's slack for the way to the middle and from there on. A query
-// from before the begin looks farther back, which takes more slack, and where paths bend more reach.
+// from before the begin looks farther back, which takes more slack, and where paths bend more
+// reach.
 void WindowedSearch::FindNear(PlacedBall horn, Instant from, double seconds) {
   const TimeWindow window = frame_.After(from, seconds);
   const double farther = -window.first - frame_.middle();

@@ -141,9 +141,9 @@ double DeepestTime(const Choice& choice, double duration) {
 ///
 /// A straight path makes the depth concave, and the ends are enough. A path d + w t + h t² leaves
 /// the chord between two of its points, T apart, by |h| (t − from)(to − t) at most; along the chord
-/// the depth is concave. With A and B the depths at the ends and λ the share of the way it is thus at
-/// least (1 − λ) A + λ B − |h| T² λ (1 − λ), which is >= 0 for all λ if √A + √B >= √|h| T. Else the
-/// halves are asked.
+/// the depth is concave. With A and B the depths at the ends and λ the share of the way it is thus
+/// at least (1 − λ) A + λ B − |h| T² λ (1 − λ), which is >= 0 for all λ if √A + √B >= √|h| T. Else
+/// the halves are asked.
 bool HoldsBetween(const Choice& choice, double from, double to) {
   if (!choice.ball.bends) return true;
   struct Part {

@@ -43,7 +43,8 @@ TEST(EarliestIntersectionOracle, KnownAccelerationsNearby) {
   });
 }
 
-// Goal:   parabolas that graze: two that brake and turn back at the distance of their radii, exactly,
+// Goal:   parabolas that graze: two that brake and turn back at the distance of their radii,
+// exactly,
 //         one unit in the last place more or less, and by 1e-15 to 1e-3; all fall together.
 // Method: the gap c (t − t0)² along a line, less what is missing at t0; without growth and with.
 TEST(EarliestIntersectionOracle, KnownAccelerationsThatGraze) {

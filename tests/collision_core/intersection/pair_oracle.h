@@ -1,5 +1,5 @@
-// The canonical pair routine against exact arithmetic, a million pairs a run: the judge of the tests
-// beside it.
+// The canonical pair routine against exact arithmetic, a million pairs a run: the judge of the
+// tests beside it.
 //
 // Never late: no first overlap before the answer. Each stretch is proved free either cheaply, by
 // positive Bernstein coefficients in exact dyadic numbers, or where those do not decide by Sturm's

@@ -67,7 +67,8 @@ Flight RandomFlight(Random* random, int pieces_max) {
   return flight;
 }
 
-// Goal:   with a known acceleration and jerk: no honest motion is a breach, whatever way the unknown
+// Goal:   with a known acceleration and jerk: no honest motion is a breach, whatever way the
+// unknown
 //         part turns; and one that left the known path and came back to it is, which neither end
 //         shows.
 // Method: pieces of constant unknown acceleration of D; there and back by 1 m within 2 s, D = 0.1.

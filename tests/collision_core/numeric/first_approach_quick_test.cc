@@ -90,7 +90,8 @@ int JudgeApproaches(std::uint64_t seed, int approaches, bool bent, ProofCounts* 
   return decided;
 }
 
-// Goal:   decided or not, no approach before the time given, to the last bit; decided, one by it and
+// Goal:   decided or not, no approach before the time given, to the last bit; decided, one by it
+// and
 //         1e-9 of it.
 // Method: numbers with few bits and of many magnitudes, exact Sturm chains; they are exact inputs.
 TEST(QuickFirstApproach, NeverLate) {

@@ -329,8 +329,9 @@ class ExactMeeting {
   }
 
   /// Are all conditions >= 0 somewhere in [lo, hi), or [lo, hi]? If so then first at lo or at a
-  /// root of one of them. With cubics: is it not proved that they are not? A closed stretch, where a
-  /// meeting is to be shown, is halved less often: what misses by 2^-kDepthOfMeeting counts as one.
+  /// root of one of them. With cubics: is it not proved that they are not? A closed stretch, where
+  /// a meeting is to be shown, is halved less often: what misses by 2^-kDepthOfMeeting counts as
+  /// one.
   static bool MeetWithin(const std::vector<DyadicPolynomial>& conditions, const Dyadic& lo,
                          const std::optional<Dyadic>& hi, bool closed) {
     const auto all_at = [&conditions](const Dyadic& x) {

@@ -81,9 +81,11 @@ TEST(EvaluateBallSegment, IridiumAndCosmos) {
   EXPECT_TRUE(verdict.contact_continuous);
 }
 
-// Goal:   with gravity known the brackets are fifty times as narrow: the known accelerations of both
+// Goal:   with gravity known the brackets are fifty times as narrow: the known accelerations of
+// both
 //         nearly cancel, and little is left unknown.
-// Method: as above; gravity at the states, as −μ p / |p|³, with J = 9e-3 m/s³, and D = 0.05 m/s² for
+// Method: as above; gravity at the states, as −μ p / |p|³, with J = 9e-3 m/s³, and D = 0.05 m/s²
+// for
 //         what the ellipsoid of the Earth adds.
 TEST(EvaluateBallSegment, IridiumAndCosmosUnderKnownGravity) {
   const auto bound = [](std::int64_t s, Eigen::Vector3d p, Eigen::Vector3d v, double known) {
