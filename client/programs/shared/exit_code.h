@@ -16,8 +16,8 @@ enum ExitCode {
   kExitOutputFailed = 74
 };
 
-/// The service refused this simulator's agents, and repeating them does not help. RunProgram() turns
-/// it into kExitRefused.
+/// The service refused this simulator's agents, and repeating them does not help. RunProgram()
+/// turns it into kExitRefused.
 class RefusedError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
