@@ -42,7 +42,7 @@ struct SimulatorClock {
   std::uint32_t run = 0;
   std::int64_t clock_ns = 0;
   std::uint32_t agents = 0;  ///< Of this simulator.
-  bool lock_step = false;    ///< False: wall clock.
+  bool lock_step = false;    ///< False: real time.
 };
 
 /// What the service knows of one simulator.
@@ -56,7 +56,7 @@ struct SimulatorStatus {
   std::uint32_t agents = 0;
   std::uint64_t states = 0;    ///< Accepted so far, in all runs.
   std::uint64_t rejected = 0;  ///< Samples refused so far.
-  /// Wall clock: its clock less the service's is within [earliest_ns, latest_ns] for certain;
+  /// In real time: its clock less the service's is within [earliest_ns, latest_ns] for certain;
   /// INT64_MIN, INT64_MAX: not known.
   TimeBracket clock_offset{std::numeric_limits<std::int64_t>::min(), kNever};
 };
@@ -68,7 +68,7 @@ struct ServiceStatus {
   std::uint32_t term = 0;     ///< Grows when another instance takes over.
   std::string version;
   std::string world;
-  bool simulated_clock = false;  ///< True: lock-step; false: wall clock.
+  bool lock_step = false;  ///< False: real time.
   std::int64_t now_ns = 0;
   std::uint32_t agents = 0;
   std::uint32_t pairs_tracked = 0;

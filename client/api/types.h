@@ -1,11 +1,12 @@
 // The values that simulators and monitors exchange with the library: plain structs, SI units, the
-// unit in each name.
+// unit in each name. What need not be declared is a std::optional, and nullopt is "not declared".
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,18 +52,24 @@ struct AgentLabel {
 /// less sharp.
 struct AgentDescription {
   std::string name = {};  ///< 1 to 64 bytes, for people.
-  double radius_m = 0;    ///< Ball about the reference point that contains the agent.
+  /// Ball about the reference point that contains the agent. Beside a shape it may be left out, and
+  /// is that of the shape; else it is required.
+  std::optional<double> radius_m = {};
   /// Whatever comes within this of the agent counts as touching it; of two agents the sum of both
   /// counts. 0, or at least 1e-6.
   double margin_m = 0;
-  /// |acceleration − acceleration_m_s2| of its states never exceeds this, and `jerk_max_m_s3` for
-  /// each second since the state more, between two states without a discontinuity. Two agents at
-  /// rest with 0 cannot move: the service tells nothing of the two, even if they overlap.
-  double acceleration_max_m_s2 = 0;
+  /// Required. |acceleration − acceleration_m_s2| of its states never exceeds this, and
+  /// `jerk_max_m_s3` for each second since the state more, between two states without a
+  /// discontinuity. Two agents at rest with 0 cannot move: the service tells nothing of the two,
+  /// even if they overlap.
+  std::optional<double> acceleration_max_m_s2 = {};
   double jerk_max_m_s3 = 0;  ///< 0: what a state tells of the acceleration does not age.
-  double angular_acceleration_max_rad_s2 = -1;  ///< < 0: not declared.
-  double speed_max_m_s = 0;  ///< Of the reference point, never exceeded; 0: not declared.
-  double time_step_s = 0;    ///< Step h of an Euler integrator; 0: the motion is continuous.
+  /// Not declared: every orientation is possible between two states.
+  std::optional<double> angular_acceleration_max_rad_s2 = {};
+  /// Of the reference point, never exceeded; above 0.
+  std::optional<double> speed_max_m_s = {};
+  /// Step h of an Euler integrator; not declared: the motion is continuous.
+  std::optional<double> time_step_s = {};
   /// One of the classes that the service's configuration names, which says whom it can meet; empty:
   /// it can meet all. At most 32 bytes.
   std::string class_name = {};
@@ -92,10 +99,11 @@ struct State {
   double position_error_m = 0;         ///< The true position is at most this far away.
   double velocity_error_m_s = 0;       ///< Likewise the true velocity.
   double rotation_error_rad = 0;       ///< Likewise the true orientation, as an angle.
-  Vector3 thrust_direction{};          ///< Unit d, what is unknown of the acceleration · d >= 0.
-  std::int64_t direction_until_ns = kNever;  ///< The declared direction holds until then.
-  std::int64_t expiry_ns = kNever;           ///< Promises exclude the agent from then on.
-  bool discontinuity = false;                ///< The motion jumped here: a teleport or a bounce.
+  /// Unit d with (acceleration − acceleration_m_s2)·d >= 0.
+  std::optional<Vector3> thrust_direction = {};
+  std::int64_t direction_until_ns = kNever;    ///< The declared direction holds until then.
+  std::optional<std::int64_t> expiry_ns = {};  ///< Promises exclude the agent from then on.
+  bool discontinuity = false;                  ///< The motion jumped here: a teleport or a bounce.
 };
 
 /// A closed interval of time that contains a begin or an end.
@@ -193,7 +201,7 @@ struct Clearance {
   std::string cause;
   AgentId cause_agent;
   std::int64_t void_from_ns = kNever;  ///< A broken declaration voids the promise from then on.
-  /// Wall clock: the promise holds no longer than this unless the service is heard again. In
+  /// In real time: the promise holds no longer than this unless the service is heard again. In
   /// lock-step time does not go on without the service: kNever.
   std::int64_t expires_ns = kNever;
   /// When the service next needs a state of the agent. A time that is not after the sample's own:

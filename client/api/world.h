@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,12 @@
 #include "client/api/types.h"
 
 namespace collision::client {
+
+/// What a World that is destroyed does with its agents.
+enum class OnLeave {
+  kRemove,  ///< They leave with it, as if each had been destroyed.
+  kLeave    ///< They stay with the service, as if this process had been killed.
+};
 
 /// How a simulator connects to its world.
 struct WorldOptions {
@@ -23,7 +30,7 @@ struct WorldOptions {
   /// Label of the frame in which positions are told, at most 64 bytes; empty: not stated. A service
   /// whose world states another one is refused, and refuses this simulator.
   std::string frame = {};
-  bool lock_step = true;  ///< False: stamps are wall-clock time, and no simulator waits.
+  bool lock_step = true;     ///< False: real time; stamps are since 1970, and nobody waits.
   /// The first run that it tries; 0: tenths of a second since 2020 (UTC), modulo 2^32. Each start
   /// of a simulator has a higher run than the last: if the service has a higher one of an earlier
   /// start, this one takes the next after it.
@@ -35,14 +42,15 @@ struct WorldOptions {
   /// was described anew, declares something else, or left what it promised. The simulator sets
   /// every state all the same. False: send each state that is set, as a stream.
   bool on_demand = true;
-  /// Without lock-step: send a state this long before the service wants it. The default covers the
+  /// In real time: send a state this long before the service wants it. The default covers the
   /// way there and back on a busy local network (10 ms each for 99 of 100 samples) and a step of
   /// the service in between. In lock-step the world's time waits for both. At most 1 h.
   std::chrono::nanoseconds lead{50'000'000};
   /// States per sample, 1 to 64: 1 for rare updates, 6 on lossy links (one Ethernet frame), 64 at
   /// full speed. 0: 1 on demand, else 64.
   std::uint32_t chunk_size = 0;
-  /// Without lock-step: the clock that stamps are taken from, in nanoseconds since 1970. By it the
+  OnLeave on_leave = OnLeave::kRemove;
+  /// In real time: the clock that stamps are taken from, in nanoseconds since 1970. By it the
   /// service measures how far they are off. Empty: the system's.
   std::function<std::int64_t()> wall_clock = {};
 };
@@ -62,8 +70,9 @@ class Transport;
 /// by then (WorldOptions::on_demand). In lock-step the loop is: compute the states at t, stage them
 /// with Agent::SetState(), AdvanceTo(t).
 ///
-/// An Agent's destructor removes the agent. A World that is destroyed first leaves its agents with
-/// the service; their bounds grow until another program takes over the simulator's name.
+/// An Agent's destructor removes the agent, and so does that of its World, unless
+/// WorldOptions::on_leave is kLeave: then the agents stay with the service, their bounds grow, and
+/// in lock-step the world's time waits, until another program takes over the simulator's name.
 class World {
  public:
   /// Throws std::runtime_error if an option is out of range or DDS is not available.
@@ -85,10 +94,16 @@ class World {
   /// 65536 agents already.
   Agent AddAgent(const AgentDescription& description, const State& state);
 
+  /// Sets states[i] of agents[i] for each i in turn, as Agent::SetState() does, in one call. Throws
+  /// std::invalid_argument if there are not as many states as agents, or for an agent of another
+  /// World, before any is set; and what SetState() throws, "states[i]: " in front: those before i
+  /// are set then.
+  void SetStates(std::span<const Agent> agents, std::span<const State> states);
+
   /// Lock-step, before the first clock: asks what time it is. The world's time waits there until
   /// this simulator has told its first clock: set the states of its agents as they are then, and
   /// AdvanceTo() that time. So nobody else has to reckon with where they may have been before. A
-  /// world whose time has not begun begins at 0. Without lock-step it is what the clock shows, at
+  /// world whose time has not begun begins at 0. In real time it is what the clock shows, at
   /// once. nullopt: no answer within `timeout`; call again, or Finish() to give it up. Throws
   /// std::logic_error after the first clock.
   std::optional<std::int64_t> Join(std::chrono::nanoseconds timeout);
@@ -96,7 +111,7 @@ class World {
   /// Writes the staged states with stamps up to `clock_ns`, then the clock, which promises that
   /// everything up to `clock_ns` has been sent. With an unchanged clock it writes what is new at
   /// this instant, if anything. Throws std::invalid_argument if the clock goes backward or, in
-  /// lock-step, beyond what is granted; the first clock of a run may be any. Without lock-step a
+  /// lock-step, beyond what is granted; the first clock of a run may be any. In real time a
   /// clock that goes back, because it was set, sends nothing until it has caught up or the service
   /// has begun another epoch, and all states are to be set anew; and until the service has a jump
   /// it is told no later clock than that of the jump.
@@ -107,16 +122,16 @@ class World {
   /// Events are delivered meanwhile: all that follow from what everybody has told so far, so that a
   /// run with the same simulators has the same events at the same steps. Forecasts come last, of
   /// each pair the newest, when the step is reached. What a callback stages counts from this step
-  /// on. The first clock of a run is 0, or what is granted. Without lock-step
-  /// this publishes and never waits.
+  /// on. The first clock of a run is 0, or what is granted. In real time this publishes and
+  /// never waits.
   /// kTimeout: the grant did not arrive within `timeout` of wall time. The clock stands at
   /// clock_ns(), what is staged for later stays staged, and a further call continues; it may not
   /// name an earlier step, since others have gone on in reliance on this one.
   Advance AdvanceTo(std::int64_t clock_ns, std::chrono::nanoseconds timeout);
 
   /// Lock-step: no step follows. The world's time waits for this simulator no longer; its agents
-  /// stay, as their last states say, until they are removed. A World without agents says so when
-  /// it is destroyed.
+  /// stay, as their last states say, until they are removed. A World that leaves no agents says so
+  /// when it is destroyed.
   void Finish();
 
   /// The last clock published; INT64_MIN before the first.
@@ -208,8 +223,7 @@ class World {
 };
 
 /// A handle to one agent of this simulator. Movable, not copyable; the destructor removes the agent
-/// from the world. A handle that outlives its World does nothing, and the agent stays with the
-/// service.
+/// from the world. A handle that outlives its World does nothing.
 class Agent {
  public:
   Agent(Agent&&) noexcept;
@@ -227,7 +241,7 @@ class Agent {
   void SetState(const State& state);
 
   /// Announces a changed description. A wider bound counts from clearance().effective_from_ns on
-  /// once clearance().description_counts: with a wall clock, when all others have heard of it. A
+  /// once clearance().description_counts: in real time, when all others have heard of it. A
   /// narrower one counts from the next state on: set one before the next Publish().
   /// Throws std::invalid_argument as AddAgent() does.
   void SetDescription(const AgentDescription& description);

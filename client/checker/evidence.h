@@ -32,7 +32,7 @@ struct RunFacts {
   /// An agent may have left for the service this long before its motion ends: simulators may be
   /// ahead by the time it grants. See Evidence::MayHaveLeft().
   std::int64_t leaving_ns = 0;
-  /// With a wall clock: the longest delay of a sample. Changes this recent excuse a promise.
+  /// In real time: the longest delay of a sample. Changes this recent excuse a promise.
   std::int64_t transit_ns = 0;
 };
 

@@ -26,7 +26,7 @@ int main() {
   const auto shape = Rover();
   World world = World::Connect({.simulator = "rovers"});
   world.OnEvent([](const Event& event) { std::puts(Name(event.status)); });
-  AgentDescription rover = {.name = "rover", .radius_m = shape->radius_m()};
+  AgentDescription rover = {.name = "rover"};
   rover.acceleration_max_m_s2 = 1;
   rover.angular_acceleration_max_rad_s2 = 0.5;
   rover.shape = shape;

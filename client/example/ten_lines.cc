@@ -1,17 +1,29 @@
-// A simulator in ten lines: one ball that flies along x, in step with all simulators of its world.
+// A simulator in ten lines: two balls that meet, in step with all simulators of their world.
 #include <cstdio>
 
+#include "client/api/event_text.h"
 #include "client/api/world.h"
 
 using namespace collision::client;
 using namespace std::chrono_literals;
 
+State At(std::int64_t t, double x, double v) {
+  return {.stamp_ns = t, .position_m = {x + v * 1e-9 * t, 0, 0}, .velocity_m_s = {v, 0, 0}};
+}
+
 int main() {
   World world = World::Connect({.simulator = "ten-lines"});
-  world.OnEvent([](const Event& event) { std::puts(Name(event.status)); });
-  Agent ball = world.AddAgent({.name = "ball", .radius_m = 0.5, .acceleration_max_m_s2 = 1}, {});
-  for (std::int64_t t = 0; t <= 60'000'000'000; t += 100'000'000) {
-    ball.SetState({.stamp_ns = t, .position_m = {2e-9 * t, 0, 0}, .velocity_m_s = {2, 0, 0}});
+  AgentDescription ball = {.name = "ada", .radius_m = 0.5, .acceleration_max_m_s2 = 1};
+  Agent ada = world.AddAgent(ball, At(0, -10, 2));
+  ball.name = "bob";
+  Agent bob = world.AddAgent(ball, At(0, 10, -2));
+  const auto name = [&](const AgentId& id) {
+    return id == ada.id() ? "ada" : id == bob.id() ? "bob" : "somebody else's";
+  };
+  world.OnEvent([&](const Event& event) { std::puts(EventLine(event, name, 0).c_str()); });
+  for (std::int64_t t = 0; t <= 10'000'000'000; t += 100'000'000) {
+    ada.SetState(At(t, -10, 2));
+    bob.SetState(At(t, 10, -2));
     if (world.AdvanceTo(t, 10s) == Advance::kTimeout) return 1;
   }
 }

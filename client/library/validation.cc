@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <optional>
 #include <span>
 #include <stdexcept>
 
@@ -31,6 +33,18 @@ bool IsWithin(double value, double least, double greatest) {
 void CheckNumber(const char* field, double value, double least, double greatest) {
   if (IsWithin(value, least, greatest)) return;
   Refuse(field, Text(value), Text(least) + " to " + Text(greatest));
+}
+
+/// What is not declared is not checked.
+void CheckDeclared(const char* field, const std::optional<double>& value, double least,
+                   double greatest) {
+  if (value) CheckNumber(field, *value, least, greatest);
+}
+
+void RequireNumber(const char* field, const std::optional<double>& value, double greatest,
+                   const char* why) {
+  if (!value) Refuse(field, "not given", "0 to " + Text(greatest) + why);
+  CheckNumber(field, *value, 0, greatest);
 }
 
 void CheckVector(const char* field, const Vector3& vector, double greatest) {
@@ -135,20 +149,28 @@ void Validate(const AgentDescription& description) {
   CheckText("name", description.name, 1, kNameMax);
   CheckText("assembly", description.assembly, 0, kNameMax);
   CheckTags(description.tags);
-  CheckNumber("radius_m", description.radius_m, 0, kRadiusMax);
+  if (description.radius_m || !description.shape) {
+    RequireNumber("radius_m", description.radius_m, kRadiusMax,
+                  "; beside a shape it may be left out");
+  }
   CheckNumber("margin_m", description.margin_m, 0, kRadiusMax);
   if (description.margin_m > 0 && description.margin_m < wire::kMarginMin) {
     Refuse("margin_m", Text(description.margin_m),
            "0, or " + Text(wire::kMarginMin) + " to " + Text(kRadiusMax));
   }
-  CheckNumber("acceleration_max_m_s2", description.acceleration_max_m_s2, 0, kAccelerationMax);
+  RequireNumber("acceleration_max_m_s2", description.acceleration_max_m_s2, kAccelerationMax,
+                "; 0 promises that its velocity never changes");
   CheckNumber("jerk_max_m_s3", description.jerk_max_m_s3, 0, wire::kJerkMax);
-  CheckNumber("angular_acceleration_max_rad_s2", description.angular_acceleration_max_rad_s2,
-              -kAccelerationMax, kAccelerationMax);
-  CheckNumber("speed_max_m_s", description.speed_max_m_s, 0, kSpeedMax);
-  CheckNumber("time_step_s", description.time_step_s, 0, kTimeStepMax);
+  CheckDeclared("angular_acceleration_max_rad_s2", description.angular_acceleration_max_rad_s2, 0,
+                kAccelerationMax);
+  // On the wire 0 stands for a speed that is not declared.
+  CheckDeclared("speed_max_m_s", description.speed_max_m_s,
+                std::numeric_limits<double>::denorm_min(), kSpeedMax);
+  CheckDeclared("time_step_s", description.time_step_s, 0, kTimeStepMax);
   CheckPartners(description);
-  if (description.shape) CheckHolds(description.radius_m, *description.shape);
+  if (description.radius_m && description.shape) {
+    CheckHolds(*description.radius_m, *description.shape);
+  }
 }
 
 void Validate(const State& state) {
@@ -161,11 +183,11 @@ void Validate(const State& state) {
   CheckNumber("position_error_m", state.position_error_m, 0, kRadiusMax);
   CheckNumber("velocity_error_m_s", state.velocity_error_m_s, 0, kSpeedMax);
   CheckNumber("rotation_error_rad", state.rotation_error_rad, 0, kRotationErrorMax);
-  if (state.thrust_direction != Vector3{}) {
-    CheckUnit("thrust_direction", state.thrust_direction, "zero, or length 1 within 0.001");
+  if (state.thrust_direction) {
+    CheckUnit("thrust_direction", *state.thrust_direction, "length 1 within 0.001");
   }
   CheckLater("direction_until_ns", state.direction_until_ns);
-  CheckLater("expiry_ns", state.expiry_ns);
+  if (state.expiry_ns) CheckInstant("expiry_ns", *state.expiry_ns);
 }
 
 void ValidateClock(std::int64_t clock_ns) { CheckInstant("clock_ns", clock_ns); }

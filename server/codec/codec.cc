@@ -265,10 +265,10 @@ Decoded<Instant> DecodeClock(const v1::SimulatorClock& wire, const ClockRules& r
   if (wire.lock_step() != rules.lock_step) {
     check.Refuse(v1::REJECTED_OUT_OF_RANGE, "lock_step",
                  rules.lock_step
-                     ? "false (wall clock); this world runs on simulated time: start the "
-                       "simulator in lock-step, or the service with clock kind WALL"
-                     : "true (simulated time); this world runs on the wall clock: start the "
-                       "simulator without lock-step, or the service with clock kind SIMULATED");
+                     ? "false (real time); this world runs in lock-step: start the "
+                       "simulator in lock-step, or the service with clock kind REAL_TIME"
+                     : "true (lock-step); this world runs in real time: start the "
+                       "simulator in real time, or the service with clock kind LOCK_STEP");
   }
   check.Integer("clock_ns", wire.clock_ns(), -wire::kInstantMax, wire::kInstantMax);
   check.Integer("clock_ns", wire.clock_ns(), rules.earliest.nanoseconds(),

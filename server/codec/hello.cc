@@ -13,9 +13,9 @@ constexpr double kNanoseconds = 1e9;  // in a second
 
 std::string ClockDetail(bool lock_step) {
   return lock_step ? "CLOCK_REAL_TIME; this world runs on simulated time: start the simulator in "
-                     "lock-step, or the service with clock kind WALL"
+                     "lock-step, or the service with clock kind REAL_TIME"
                    : "CLOCK_LOCK_STEP; this world runs on the wall clock: start the simulator "
-                     "without lock-step, or the service with clock kind SIMULATED";
+                     "without lock-step, or the service with clock kind LOCK_STEP";
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ std::string ClockDetail(bool lock_step) {
 v1::ServiceHello HelloOf(const v1::Config& config) {
   v1::ServiceHello hello;
   hello.set_wire_revision(wire::kWireRevision);
-  hello.set_clock_kind(config.clock().kind() == v1::Clock::WALL ? v1::CLOCK_REAL_TIME
+  hello.set_clock_kind(config.clock().kind() == v1::Clock::REAL_TIME ? v1::CLOCK_REAL_TIME
                                                                 : v1::CLOCK_LOCK_STEP);
   hello.set_skew_max_ns(std::llround(config.clock().skew_max_s() * kNanoseconds));
   hello.set_world(config.world().substr(0, wire::kNameMax));

@@ -46,7 +46,8 @@ TextPlace PlaceOf(TextFormat::ParseInfoTree* tree, const std::string& path) {
 
 /// What does nothing with this kind of clock must keep its default: it was set for something.
 void CheckKind(const v1::Config& config, std::vector<ConfigError>* errors) {
-  if (config.clock().kind() != v1::Clock::WALL && config.clock().kind() != v1::Clock::SIMULATED) {
+  if (config.clock().kind() != v1::Clock::REAL_TIME &&
+      config.clock().kind() != v1::Clock::LOCK_STEP) {
     return;
   }
   const std::string kind = v1::Clock::Kind_Name(config.clock().kind());
@@ -74,9 +75,9 @@ void CheckAgainst(const v1::Config& config, std::vector<ConfigError>* errors) {
   if (config.simulators_max() < clock.simulators_awaited()) {
     errors->push_back({"clock.simulators_awaited", "must not be more than simulators_max"});
   }
-  if (clock.kind() == v1::Clock::WALL && clock.skew_max_s() == 0) {
+  if (clock.kind() == v1::Clock::REAL_TIME && clock.skew_max_s() == 0) {
     errors->push_back(
-        {"clock.skew_max_s", "with kind WALL it must be greater than 0, up to 60 [s]"});
+        {"clock.skew_max_s", "with kind REAL_TIME it must be greater than 0, up to 60 [s]"});
   }
   CheckKind(config, errors);
   const double release_default = CompleteConfig({}).clock().release_after_s();

@@ -41,58 +41,62 @@ constexpr ConfigOption kOptions[] = {
      "Which world this service serves. Worlds do not see each other."},
     {"domain", "none", "0", kDigits<wire::kDomainMax>, "", "0",
      "DDS domain. Simulators and monitors must use the same."},
-    {"clock.kind", "none", "", "", "SIMULATED or WALL", "SIMULATED",
-     "SIMULATED: now is the least clock of the live simulators. WALL: now is the time since 1970 "
-     "by "
-     "the clock of this machine, which should be synchronised (NTP, PTP)."},
+    {"clock.kind", "none", "", "", "LOCK_STEP or REAL_TIME", "LOCK_STEP",
+     "LOCK_STEP: all simulators of the world advance together, and now is the least of their "
+     "clocks. REAL_TIME: now is the time since 1970 by the clock of this machine, which should be "
+     "synchronised (NTP, PTP). The simulators must run in the same way (WorldOptions::lock_step, "
+     "--lock-step or --real-time)."},
     {"clock.skew_max_s", "s", "0", "60", "", "0",
      "Bound on the difference between any sender's clock and ours. Bounds are widened by it, and a "
      "stamp further in the future is refused, as is a sender whose clock is certainly off by more. "
-     "If our own clock is set by more, all promises are void and given anew. With WALL it must be "
+     "If our own clock is set by more, all promises are void and given anew. With REAL_TIME it "
+     "must be "
      "greater than 0.",
      "0.002"},
     {"clock.simulators_awaited", "simulators", "1", "1024", "", "1",
-     "With SIMULATED, time stands still until so many simulators have published a clock."},
+     "With LOCK_STEP, time stands still until so many simulators have published a clock."},
     {"clock.grant_ahead_max_s", "s", "0.000001", "86400", "", "10",
-     "With SIMULATED, no simulator is allowed to run further ahead than this, however empty the "
+     "With LOCK_STEP, no simulator is allowed to run further ahead than this, however empty the "
      "scene."},
     {"clock.on_silent_simulator", "none", "", "", "WAIT or RELEASE", "WAIT",
-     "With SIMULATED, when the process of a simulator has died, or it does not move although it "
+     "With LOCK_STEP, when the process of a simulator has died, or it does not move although it "
      "was granted time: WAIT stops the world's time until it is back, RELEASE goes on without it "
      "after release_after_s. Its agents stay either way, and their bounds grow. A service that is "
      "started again waits likewise for those that the one before it served.",
-     "", "SIMULATED"},
+     "", "LOCK_STEP"},
     {"clock.release_after_s", "s", "0.1", "86400", "", "5",
      "How long RELEASE waits; longer than any simulator takes for one step. With WAIT it must keep "
      "its default."},
     {"clock.first_clock_max_s", "s", "0", "4000000000", "", "31536000",
-     "With SIMULATED, the latest time at which an epoch of the world may begin: a first clock "
+     "With LOCK_STEP, the latest time at which an epoch of the world may begin: a first clock "
      "beyond "
      "it, such as a time since 1970, is refused.",
-     "", "SIMULATED"},
+     "", "LOCK_STEP"},
     {"clock.shape_wait_max_s", "s", "0", "86400", "", "60",
-     "With SIMULATED, how long time stands still for the shape of an agent: until it has arrived "
+     "With LOCK_STEP, how long time stands still for the shape of an agent: until it has arrived "
      "and its tree is built. After that the agent counts as its ball, or with its coarse tree, and "
      "from when on the tree counts is chance: two runs need not have the same events.",
-     "", "SIMULATED"},
+     "", "LOCK_STEP"},
     {"clock.waiting_after_s", "s", "0.1", "86400", "", "5",
-     "With SIMULATED, a simulator that was granted time, is the last one and tells nothing new for "
+     "With LOCK_STEP, a simulator that was granted time, is the last one and tells nothing new for "
      "so long is named: in the log, in the status, and to the other simulators.",
-     "", "SIMULATED"},
+     "", "LOCK_STEP"},
     {"clock.remove_silent_after_s", "s", "0", "604800", "", "60",
-     "A simulator that has been silent for so long is removed with its agents: with WALL since its "
-     "process died, with SIMULATED since it was released (on_silent_simulator RELEASE). 0: never."},
+     "A simulator that has been silent for so long is removed with its agents: with REAL_TIME "
+     "since its "
+     "process died, with LOCK_STEP since it was released (on_silent_simulator RELEASE). 0: never."},
     {"clock.wait_for_synchronisation_s", "s", "0", "86400", "", "0",
-     "With WALL, wait so long at the start until the system counts its clock as synchronised, then "
+     "With REAL_TIME, wait so long at the start until the system counts its clock as synchronised, "
+     "then "
      "go on without. 0: do not wait.",
-     "", "WALL"},
+     "", "REAL_TIME"},
     {"frame", "none", "", "", "a text of at most 64 printable ASCII characters, or empty", "\"\"",
      "Label of the world frame, such as \"ENU 47.3977 8.5456 488\". A simulator that states "
      "another "
      "one is refused. Empty: not stated, and any fits."},
     {"epoch_utc", "none", "", "", "a text of at most 64 printable ASCII characters, or empty",
      "\"\"",
-     "With SIMULATED, what instant 0 is, such as \"2026-01-01T00:00:00Z\", for those who read. "
+     "With LOCK_STEP, what instant 0 is, such as \"2026-01-01T00:00:00Z\", for those who read. "
      "Empty: not stated."},
     {"log_level", "none", "", "", "trace, debug, info, warn, error, critical or off", "\"info\"",
      "The least severe lines that are logged."},
@@ -139,7 +143,7 @@ constexpr ConfigOption kOptions[] = {
     {"rejections_per_second_max", "messages", "1", "100000", "", "100",
      "Rejections published per second; further ones are only counted in the status."},
     {"forecasts_per_second_max", "messages", "1", "1000000", "", "1000",
-     "New and moved forecasts published per second, of the world's time with SIMULATED; the "
+     "New and moved forecasts published per second, of the world's time with LOCK_STEP; the "
      "soonest "
      "goes first, the others wait. A forecast that may begin within temporal_resolution_s does not "
      "wait, nor does its end. Contacts are no forecasts and never wait."},
@@ -175,7 +179,7 @@ constexpr ConfigOption kOptions[] = {
      "tightly, so that brackets of the same cost are narrower. OCTREE: the reference. collisionctl "
      "sphere-tree shows the difference. A surface of more than 4096 triangles has a coarse tree "
      "until this one is built. MEDIAN_SPLIT: the coarse tree is all there is, built in a tenth of "
-     "the time: for landscapes in SIMULATED time, which waits for trees."},
+     "the time: for landscapes in LOCK_STEP, which waits for trees."},
     {"tree_cache_dir", "none", "", "",
      "a path of at most 4096 printable ASCII characters, or empty", "\"\"",
      "Folder that keeps trees once they are built; it is made if it is missing. A file that is "
@@ -297,7 +301,7 @@ std::string AllowedRange(const ConfigOption& option) {
 }
 
 std::string_view DefaultOf(const ConfigOption& option, const v1::Config& config) {
-  const bool wall = config.clock().kind() == v1::Clock::WALL;
+  const bool wall = config.clock().kind() == v1::Clock::REAL_TIME;
   return wall && !option.wall_value.empty() ? option.wall_value : option.value;
 }
 

@@ -64,7 +64,7 @@ void PrintComment(std::string_view text, const std::string& indent, std::ostream
 std::string Facts(const ConfigOption& option) {
   std::string facts = "Unit: " + std::string(option.unit) + ". Range: " + AllowedRange(option) +
                       ". Default: " + std::string(option.value);
-  if (!option.wall_value.empty()) facts += "; with WALL " + std::string(option.wall_value);
+  if (!option.wall_value.empty()) facts += "; with REAL_TIME " + std::string(option.wall_value);
   if (!option.only_with.empty()) facts += "; only with " + std::string(option.only_with);
   return facts + ".";
 }

@@ -134,12 +134,21 @@ std::string Legible(std::string message) {
   return message;
 }
 
+/// What the words of earlier versions are called now; empty: it is none of them.
+std::string NewWord(const std::string& message) {
+  if (message.find("\"SIMULATED\"") != message.npos) return "SIMULATED is called LOCK_STEP now";
+  if (message.find("\"WALL\"") != message.npos) return "WALL is called REAL_TIME now";
+  return "";
+}
+
 /// What is wrong with the field of this path, and what is allowed there.
 std::string Explain(const std::string& path, const std::string& message) {
   const auto options = ConfigOptions();
   const auto option = std::ranges::find(options, path, &ConfigOption::path);
   if (option != options.end()) {
-    return path + ": " + Legible(message) + "; allowed: " + AllowedRange(*option);
+    const std::string renamed = path == "clock.kind" ? NewWord(message) : "";
+    return path + ": " + (renamed.empty() ? Legible(message) : renamed) +
+           "; allowed: " + AllowedRange(*option);
   }
   const std::string leaf = path.substr(path.rfind('.') + 1);
   const std::string error = path + ": " + Legible(message);

@@ -23,7 +23,7 @@ broad_phase::BroadPhaseMethod MethodOf(v1::Config::BroadPhase method) {
 
 detection::DetectorOptions DetectorOptionsOf(const v1::Config& config) {
   const std::uint64_t per_step = WorkUnitsPerStep(config);
-  const bool sliced = config.clock().kind() == v1::Clock::WALL && per_step > 0;
+  const bool sliced = config.clock().kind() == v1::Clock::REAL_TIME && per_step > 0;
   return {.temporal_resolution = config.temporal_resolution_s(),
           .announce_within = config.announce_within_s(),
           .skew = config.clock().skew_max_s(),

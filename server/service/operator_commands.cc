@@ -64,8 +64,8 @@ std::string OperatorCommands::Evict(const std::string& name) {
 
 std::string OperatorCommands::RestartTime() {
   if (!world_.simulated()) {
-    return "refused: the world has a wall clock, and its time cannot begin anew; only a simulated "
-           "clock (clock.kind SIMULATED) can";
+    return "refused: the world runs in real time, which cannot begin anew; only in lock-step "
+           "(clock.kind LOCK_STEP) it can";
   }
   world_.silence().roster().GiveUpAll();
   std::size_t ended = 0;

@@ -22,7 +22,7 @@ bool IsInEpoch(const Simulator& simulator) {
 
 RosterJournal::RosterJournal(const v1::Config& config, JournalParts parts)
     : parts_(std::move(parts)),
-      has_roster_(config.clock().kind() != v1::Clock::WALL),
+      has_roster_(config.clock().kind() != v1::Clock::REAL_TIME),
       goes_on_without_(config.on_state_failure() != v1::Config::END),
       written_ahead_(config.clock().grant_ahead_max_s()) {}
 

@@ -51,12 +51,17 @@ int EndWith(ExitCode code, const char* what, const std::exception& failure) {
   return Fail(code, std::string(what) + ": " + failure.what());
 }
 
+std::string NetworkProfile() {
+  const char* uri = std::getenv("CYCLONEDDS_URI");
+  return uri == nullptr || *uri == '\0' ? "none, CYCLONEDDS_URI is not set" : uri;
+}
+
 /// As the configuration asks for; says how it ended.
 void WaitForWallClock(const v1::Config& config, const StopSignalWatcher& signals,
                       ServiceNotifier* service_manager) {
   const std::chrono::nanoseconds longest(
       ToNanoseconds(config.clock().wait_for_synchronisation_s()));
-  if (config.clock().kind() != v1::Clock::WALL || longest.count() == 0) return;
+  if (config.clock().kind() != v1::Clock::REAL_TIME || longest.count() == 0) return;
   spdlog::info("waits for the wall clock to be synchronised, at most {} s",
                config.clock().wait_for_synchronisation_s());
   const auto pause = [&](std::chrono::nanoseconds period) {
@@ -126,6 +131,7 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
       [recorder, quarantine = parts.quarantine] { EndInTheStep(recorder, quarantine); });
   spdlog::info("collisiond {}, service {} ({}), claims world \"{}\" on domain {}", Version(),
                IdText(parts.claim.instance), ProcessText(), config.world(), config.domain());
+  spdlog::info("network profile: {}", NetworkProfile());
   if (!has_journal) spdlog::info("no journal: nothing is kept for the next start");
   spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and evaluation",
                config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerEvaluation(config));

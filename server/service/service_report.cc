@@ -13,7 +13,7 @@
 namespace collision::server {
 ServiceReport::ServiceReport(const v1::Config& complete, std::uint64_t service_id,
                              std::string process)
-    : simulated_(complete.clock().kind() != v1::Clock::WALL),
+    : simulated_(complete.clock().kind() != v1::Clock::REAL_TIME),
       configuration_(ConfigurationDigest(complete)),
       service_id_(service_id),
       process_(std::move(process)),

@@ -17,7 +17,7 @@ void TakeEarlier(std::optional<std::int64_t> due, std::optional<std::int64_t>* n
 }  // namespace
 
 Silence::Silence(const v1::Config& config, const std::vector<JournalledSimulator>& roster)
-    : simulated_(config.clock().kind() != v1::Clock::WALL),
+    : simulated_(config.clock().kind() != v1::Clock::REAL_TIME),
       releases_(config.clock().on_silent_simulator() == v1::Clock::RELEASE),
       release_after_ns_(Nanoseconds(config.clock().release_after_s())),
       remove_after_ns_(Nanoseconds(config.clock().remove_silent_after_s())),

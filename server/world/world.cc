@@ -14,7 +14,7 @@ std::int64_t ToNanoseconds(double seconds) {
 }
 
 World::World(const v1::Config& config, const std::vector<JournalledSimulator>& roster)
-    : simulated_(config.clock().kind() != v1::Clock::WALL),
+    : simulated_(config.clock().kind() != v1::Clock::REAL_TIME),
       skew_(config.clock().skew_max_s()),
       grant_ahead_max_(config.clock().grant_ahead_max_s()),
       temporal_resolution_(config.temporal_resolution_s()),

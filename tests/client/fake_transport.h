@@ -111,6 +111,11 @@ inline World ConnectTo(const std::shared_ptr<FakeNetwork>& network, WorldOptions
   return World::Connect(options, std::make_unique<FakeTransport>(network));
 }
 
+/// One that the library takes, without an extent and without acceleration.
+inline AgentDescription Point(const std::string& name = "ball") {
+  return {.name = name, .radius_m = 0, .acceleration_max_m_s2 = 0};
+}
+
 /// An event between this simulator's agent in slot 0 and another simulator's agent.
 inline v1::CollisionEvent OwnEvent(std::uint32_t contact, std::uint32_t revision,
                                    std::uint64_t sequence) {

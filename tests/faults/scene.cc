@@ -13,14 +13,14 @@ namespace collision::faults {
 
 v1::Config LockStepConfig(std::size_t simulators) {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
+  config.mutable_clock()->set_kind(v1::Clock::LOCK_STEP);
   config.mutable_clock()->set_simulators_awaited(static_cast<std::uint32_t>(simulators));
   return config;
 }
 
 v1::Config WallConfig(double skew_max_s) {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   config.mutable_clock()->set_skew_max_s(skew_max_s);
   return config;
 }

@@ -53,6 +53,7 @@ void SimulatorProgram::Start() {
                               .incarnation = options_.incarnation,
                               .on_demand = options_.on_demand,
                               .chunk_size = options_.chunk_size,
+                              .on_leave = client::OnLeave::kLeave,
                               .wall_clock = [this] { return StampOf(network_.now_ns()); }},
                              std::move(end)));
   world_->OnNotice([](const client::Notice&) {});  // Faults are what these runs are made of.

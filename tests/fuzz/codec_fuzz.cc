@@ -21,7 +21,7 @@ v1::Config FuzzedWorld(FuzzedData* data) {
   v1::Config config;
   config.set_log_level("off");
   const bool wall = data->Below(4) == 0;
-  config.mutable_clock()->set_kind(wall ? v1::Clock::WALL : v1::Clock::SIMULATED);
+  config.mutable_clock()->set_kind(wall ? v1::Clock::REAL_TIME : v1::Clock::LOCK_STEP);
   if (wall || data->Flag()) config.mutable_clock()->set_skew_max_s(data->OneOf(kSkews));
   if (!wall && data->Flag()) config.mutable_clock()->set_on_silent_simulator(v1::Clock::RELEASE);
   config.set_temporal_resolution_s(data->OneOf(kResolutions));
@@ -64,7 +64,7 @@ void CheckRefusals(const v1::ServiceStatus& status, std::uint64_t reported) {
 class Session {
  public:
   explicit Session(const v1::Config& config)
-      : simulated_(config.clock().kind() == v1::Clock::SIMULATED), daemon_(config) {
+      : simulated_(config.clock().kind() == v1::Clock::LOCK_STEP), daemon_(config) {
     if (!simulated_) now_ns_ = daemon_.bus().wall_ns;
   }
 

@@ -33,7 +33,7 @@ constexpr std::size_t kLogShown = 2000;  // [bytes] of each program, where somet
 constexpr const char* kNames[] = {"service", "standby", "alpha", "beta", "monitor", "listener"};
 
 std::string Clock(const TestbedOptions& options) {
-  if (options.wall_clock) return "kind: WALL skew_max_s: 0.002";
+  if (options.wall_clock) return "kind: REAL_TIME skew_max_s: 0.002";
   return std::string("simulators_awaited: 2 grant_ahead_max_s: ") + kRoundMax;
 }
 

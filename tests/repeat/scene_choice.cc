@@ -38,7 +38,7 @@ std::vector<Condition> PossibleConditions(std::vector<std::string>* left_out) {
 
 std::string WhyNotRepeatable(const v1::Scene& scene) {
   const v1::Clock& clock = scene.config().clock();
-  if (clock.kind() != v1::Clock::SIMULATED) return "it runs with the wall clock";
+  if (clock.kind() != v1::Clock::LOCK_STEP) return "it runs with the wall clock";
   if (clock.has_shape_wait_max_s() && clock.shape_wait_max_s() == 0) {
     return "its time does not wait for shapes: from when on a tree counts is chance";
   }

@@ -43,9 +43,9 @@ TEST(SceneChoice, OnlyPicksByPartOfTheName) {
 TEST(SceneChoice, OnlyScenesWhoseTimeWaitsForEverythingAreRepeatable) {
   v1::Scene scene;
   v1::Clock& clock = *scene.mutable_config()->mutable_clock();
-  clock.set_kind(v1::Clock::WALL);
+  clock.set_kind(v1::Clock::REAL_TIME);
   EXPECT_NE(WhyNotRepeatable(scene), "");
-  clock.set_kind(v1::Clock::SIMULATED);
+  clock.set_kind(v1::Clock::LOCK_STEP);
   EXPECT_EQ(WhyNotRepeatable(scene), "");
   clock.set_shape_wait_max_s(0);
   EXPECT_NE(WhyNotRepeatable(scene), "");

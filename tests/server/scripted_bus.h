@@ -58,7 +58,7 @@ class ScriptedBus final : public Bus, public Clock {
 /// The default configuration with a simulated clock.
 inline v1::Config Simulated() {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
+  config.mutable_clock()->set_kind(v1::Clock::LOCK_STEP);
   return config;
 }
 

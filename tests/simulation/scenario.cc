@@ -7,7 +7,7 @@ namespace collision::server {
 
 v1::Config ConfigFor(std::size_t simulators) {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
+  config.mutable_clock()->set_kind(v1::Clock::LOCK_STEP);
   config.mutable_clock()->set_simulators_awaited(static_cast<std::uint32_t>(simulators));
   return CompleteConfig(config);
 }

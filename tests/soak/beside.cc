@@ -50,7 +50,7 @@ constexpr char kLimits[] =
 
 /// Each step of the honest one waits for an answer.
 constexpr char kLockStep[] = "simulators_awaited: 1 grant_ahead_max_s: 0.016666667";
-constexpr char kWallClock[] = "kind: WALL";
+constexpr char kWallClock[] = "kind: REAL_TIME";
 
 /// Of a bad client.
 struct Kind {

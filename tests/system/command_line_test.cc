@@ -101,7 +101,7 @@ TEST(CommandLine, BadConfigurationNamesFileLineFieldAndRange) {
   };
   const Mistake mistakes[] = {
       {"world: \"a\"\n\nagents_max: 0\n", {":3: agents_max:", "1 to "}},
-      {"clock {\n  kind: WALL\n  skew_max_s: -1\n}\n", {":3: clock.skew_max_s:", "0 to 60"}},
+      {"clock {\n  kind: REAL_TIME\n  skew_max_s: -1\n}\n", {":3: clock.skew_max_s:", "0 to 60"}},
       {"temporal_resolution_s: nan\n", {":1: temporal_resolution_s:", " to "}},
       {"# nothing\nno_such_field: 1\n", {":2:", "no_such_field"}},
       {"world: 7\n", {":1:"}},

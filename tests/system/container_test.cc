@@ -62,7 +62,7 @@ class Container {
 TEST(Container, TakesWorldAndDomainFromTheEnvironmentAndTheRestFromItsFile) {
   const Outcome outcome = Container("lab", "72").Serve("--print-config");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  for (const char* line : {"\nworld: \"lab\"\n", "\ndomain: 72\n", "\n  kind: WALL\n"}) {
+  for (const char* line : {"\nworld: \"lab\"\n", "\ndomain: 72\n", "\n  kind: REAL_TIME\n"}) {
     EXPECT_TRUE(Contains(outcome.out, line)) << line << outcome.out;
   }
 }

@@ -5,6 +5,9 @@
 namespace collision::client {
 namespace {
 
+/// On the wire every angular acceleration below 0 stands for one that is not declared.
+constexpr double kTurnNotDeclared = -1;
+
 void Set(const Vector3& from, v1::Vector3* to) {
   to->set_x(from[0]);
   to->set_y(from[1]);
@@ -67,13 +70,15 @@ SimulatorStatus SimulatorStatusOf(const v1::SimulatorStatus& message) {
 v1::AgentDescription ToMessage(const AgentDescription& description) {
   v1::AgentDescription message;
   message.set_agent_name(description.name);
-  message.set_radius_m(description.radius_m);
+  const double shape_radius = description.shape ? description.shape->radius_m() : 0;
+  message.set_radius_m(description.radius_m.value_or(shape_radius));
+  message.set_acceleration_max_m_s2(description.acceleration_max_m_s2.value_or(0));
   message.set_margin_m(description.margin_m);
-  message.set_acceleration_max_m_s2(description.acceleration_max_m_s2);
   message.set_jerk_max_m_s3(description.jerk_max_m_s3);
-  message.set_angular_acceleration_max_rad_s2(description.angular_acceleration_max_rad_s2);
-  message.set_speed_max_m_s(description.speed_max_m_s);
-  message.set_time_step_s(description.time_step_s);
+  message.set_angular_acceleration_max_rad_s2(
+      description.angular_acceleration_max_rad_s2.value_or(kTurnNotDeclared));
+  message.set_speed_max_m_s(description.speed_max_m_s.value_or(0));
+  message.set_time_step_s(description.time_step_s.value_or(0));
   message.set_class_name(description.class_name);
   message.set_assembly(description.assembly);
   for (const std::string& name : description.meets_in_assembly) message.add_meets_in_assembly(name);
@@ -102,9 +107,9 @@ v1::AgentState ToMessage(const State& state) {
   message.set_position_error_m(state.position_error_m);
   message.set_velocity_error_m_s(state.velocity_error_m_s);
   message.set_rotation_error_rad(state.rotation_error_rad);
-  Set(state.thrust_direction, message.mutable_thrust_direction());
+  Set(state.thrust_direction.value_or(Vector3{}), message.mutable_thrust_direction());
   message.set_direction_until_ns(state.direction_until_ns);
-  message.set_expiry_ns(state.expiry_ns);
+  message.set_expiry_ns(state.expiry_ns.value_or(kNever));
   message.set_discontinuity(state.discontinuity);
   return message;
 }
@@ -125,9 +130,10 @@ State FromMessage(const v1::AgentState& message) {
   state.position_error_m = message.position_error_m();
   state.velocity_error_m_s = message.velocity_error_m_s();
   state.rotation_error_rad = message.rotation_error_rad();
-  state.thrust_direction = VectorOf(message.thrust_direction());
+  const Vector3 direction = VectorOf(message.thrust_direction());
+  if (direction != Vector3{}) state.thrust_direction = direction;
   state.direction_until_ns = message.direction_until_ns();
-  state.expiry_ns = message.expiry_ns();
+  if (message.expiry_ns() != kNever) state.expiry_ns = message.expiry_ns();
   state.discontinuity = message.discontinuity();
   return state;
 }
@@ -142,9 +148,11 @@ DescribedAgent FromMessage(const v1::AgentDescription& message) {
   agent.description.margin_m = message.margin_m();
   agent.description.acceleration_max_m_s2 = message.acceleration_max_m_s2();
   agent.description.jerk_max_m_s3 = message.jerk_max_m_s3();
-  agent.description.angular_acceleration_max_rad_s2 = message.angular_acceleration_max_rad_s2();
-  agent.description.speed_max_m_s = message.speed_max_m_s();
-  agent.description.time_step_s = message.time_step_s();
+  if (message.angular_acceleration_max_rad_s2() >= 0) {
+    agent.description.angular_acceleration_max_rad_s2 = message.angular_acceleration_max_rad_s2();
+  }
+  if (message.speed_max_m_s() > 0) agent.description.speed_max_m_s = message.speed_max_m_s();
+  if (message.time_step_s() > 0) agent.description.time_step_s = message.time_step_s();
   agent.description.class_name = message.class_name();
   agent.description.assembly = message.assembly();
   agent.description.meets_in_assembly.assign(message.meets_in_assembly().begin(),
@@ -244,7 +252,7 @@ ServiceStatus FromMessage(const v1::ServiceStatus& message) {
   status.term = message.stamp().term();
   status.version = message.version();
   status.world = message.world();
-  status.simulated_clock = message.simulated_clock();
+  status.lock_step = message.simulated_clock();
   status.now_ns = message.now_ns();
   status.agents = message.agents();
   status.pairs_tracked = message.pairs_tracked();

@@ -14,11 +14,11 @@ const char* ModeText(bool lock_step) { return lock_step ? "lock-step" : "real ti
 
 std::string Quoted(const std::string& text) { return "\"" + text + "\""; }
 
-/// Where Cyclone DDS was told to look: the commonest cause of silence is that it differs.
-std::string ProfileText() {
-  const char* uri = std::getenv("CYCLONEDDS_URI");
-  return uri == nullptr || *uri == '\0' ? "CYCLONEDDS_URI is not set here"
-                                        : "CYCLONEDDS_URI here is " + std::string(uri);
+/// What was refused that is of no agent.
+std::string TopicText(const std::string& topic) {
+  if (topic == "TOPIC_SIMULATOR_CLOCK") return "this simulator's clock";
+  if (topic == "TOPIC_SHAPE") return "a shape";
+  return topic;
 }
 
 std::string Joined(const std::vector<std::string>& texts) {
@@ -28,6 +28,17 @@ std::string Joined(const std::vector<std::string>& texts) {
 }
 
 }  // namespace
+
+std::string NetworkProfileText() {
+  const char* uri = std::getenv("CYCLONEDDS_URI");
+  if (uri == nullptr || *uri == '\0') return "no network profile, CYCLONEDDS_URI is not set";
+  return "network profile " + std::string(uri);
+}
+
+std::string PlaceText(const std::string& world, std::uint32_t domain) {
+  return "world " + Quoted(world) + ", DDS domain " + std::to_string(domain) + ", " +
+         NetworkProfileText();
+}
 
 const char* Name(NoticeKind kind) {
   switch (kind) {
@@ -100,11 +111,11 @@ void Notices::LookForService(const Situation& situation, Time now) {
     return;
   }
   if (!no_service_.Lasts("", now, kNoticeAfter)) return;
-  Tell(NoticeKind::kNoService, "no service of " + world + " is heard for " +
+  Tell(NoticeKind::kNoService, "no service of " + world + " has been heard for " +
                                    std::to_string(no_service_.Since(now).count()) +
-                                   " s: does collisiond run, with this world and domain and the "
-                                   "same network profile (" +
-                                   ProfileText() + ")?");
+                                   " s: does collisiond run, with the same world, domain and "
+                                   "CYCLONEDDS_URI? Here is " +
+                                   NetworkProfileText());
 }
 
 bool Notices::LookAtClock(const Situation& situation, Time now) {
@@ -117,12 +128,12 @@ bool Notices::LookAtClock(const Situation& situation, Time now) {
   }
   if (!wrong_clock_.Lasts("", now, std::chrono::seconds(0))) return false;
   const bool lock_step = facts_.lock_step;
-  Tell(NoticeKind::kWrongClock,
-       "this simulator runs in " + std::string(ModeText(lock_step)) +
-           ", but the service of world " + Quoted(facts_.world) + " in " + ModeText(!lock_step) +
-           ": set WorldOptions::lock_step to " + (lock_step ? "false" : "true") +
-           ", or start collisiond with clock { kind: " + (lock_step ? "LOCK_STEP" : "REAL_TIME") +
-           " }");
+  Tell(NoticeKind::kWrongClock, "this simulator runs in " + std::string(ModeText(lock_step)) +
+                                    ", but the service of world " + Quoted(facts_.world) + " in " +
+                                    ModeText(!lock_step) + ": set WorldOptions::lock_step to " +
+                                    (lock_step ? "false (--real-time)" : "true (--lock-step)") +
+                                    ", or start collisiond with clock { kind: " +
+                                    (lock_step ? "LOCK_STEP" : "REAL_TIME") + " }");
   return false;
 }
 
@@ -159,10 +170,10 @@ void Notices::Refuse(const Rejection& rejection, const std::string& agent) {
   if (rejection.reason == "REJECTED_ID_OWNED" || rejection.field == "lock_step") return;
   const std::string cause = rejection.reason + " " + rejection.field;
   if (refusals_.size() == kRefusalsToldMax || !refusals_.insert(cause).second) return;
-  Tell(NoticeKind::kRefused, "the service refuses " +
-                                 (agent.empty() ? rejection.topic : "agent " + Quoted(agent)) +
-                                 ": " + rejection.field + ": " + rejection.detail + " (" +
-                                 rejection.reason + "; told once)");
+  Tell(NoticeKind::kRefused,
+       "the service refuses " +
+           (agent.empty() ? TopicText(rejection.topic) : "agent " + Quoted(agent)) + ": " +
+           rejection.field + ": " + rejection.detail + " (" + rejection.reason + "; told once)");
 }
 
 void Notices::Breach(const std::string& agent, std::int64_t since_ns) {

@@ -24,6 +24,13 @@ inline constexpr std::chrono::seconds kNoticeAgain(60);
 inline constexpr std::size_t kRefusalsToldMax = 64;
 inline constexpr std::size_t kBreachesToldMax = 64;
 
+/// How Cyclone DDS is told where to look: "network profile file:///etc/lan.xml".
+/// The commonest cause of silence is that two programs differ in it.
+std::string NetworkProfileText();
+
+/// Where a program looks: world, domain and network profile.
+std::string PlaceText(const std::string& world, std::uint32_t domain);
+
 /// A simulator and its last clock.
 struct Laggard {
   std::string name;

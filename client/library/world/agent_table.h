@@ -72,7 +72,7 @@ class AgentTable {
   /// Lock-step: the service has granted more time, so it has all that the last clock named.
   void EndRound();
 
-  /// The clock sample that follows everything sent so far. With a wall clock it tells no more than
+  /// The clock sample that follows everything sent so far. In real time it tells no more than
   /// the stamp of a jump on its way: it might overtake the jump, if that is overwritten in one
   /// sample and comes with the next, and others would have relied on what the jump ends.
   v1::SimulatorClock Clock(std::int64_t clock_ns, std::int64_t next_ns, bool lock_step);

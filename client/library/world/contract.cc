@@ -106,8 +106,8 @@ bool PathStandsIn(const MotionBounds& bounds, const State& sent, const State& ne
   }
   if (!(Norm(moved) <= room.position + position_error)) return false;
   if (!(Norm(sped) <= room.velocity + velocity_error)) return false;
-  if (bounds.speed_max_m_s > 0 &&
-      !(speed_next <= bounds.speed_max_m_s + kRounding * speed + next.velocity_error_m_s)) {
+  if (bounds.speed_max_m_s &&
+      !(speed_next <= *bounds.speed_max_m_s + kRounding * speed + next.velocity_error_m_s)) {
     return false;
   }
   // Half of what the service allows, as above; the service also allows for clocks that differ.
@@ -115,15 +115,15 @@ bool PathStandsIn(const MotionBounds& bounds, const State& sent, const State& ne
         room.position_rounding + room.velocity_rounding * s)) {
     return false;
   }
-  const Vector3& direction = sent.thrust_direction;
-  if (direction == Vector3{} || sent.direction_until_ns < next.stamp_ns) return true;
+  if (!sent.thrust_direction || sent.direction_until_ns < next.stamp_ns) return true;
+  const Vector3& direction = *sent.thrust_direction;
   return -Dot(moved, direction) <= position_error + room.position_rounding &&
          -Dot(sped, direction) <= velocity_error + room.velocity_rounding;
 }
 
 bool TurnStandsIn(const MotionBounds& bounds, const State& sent, const State& next, double s) {
-  const double alpha = bounds.angular_acceleration_max_rad_s2;
-  if (!bounds.turns || alpha < 0) return true;
+  if (!bounds.turns || !bounds.angular_acceleration_max_rad_s2) return true;
+  const double alpha = *bounds.angular_acceleration_max_rad_s2;
   const double rate =
       std::max(Norm(sent.angular_velocity_rad_s), Norm(next.angular_velocity_rad_s));
   const Room room = RoomFor(alpha, bounds.time_step_s, rate, 0, s);
@@ -138,11 +138,11 @@ bool TurnStandsIn(const MotionBounds& bounds, const State& sent, const State& ne
 }  // namespace
 
 MotionBounds BoundsOf(const AgentDescription& description) {
-  return {.acceleration_max_m_s2 = description.acceleration_max_m_s2,
+  return {.acceleration_max_m_s2 = description.acceleration_max_m_s2.value_or(0),
           .jerk_max_m_s3 = description.jerk_max_m_s3,
           .angular_acceleration_max_rad_s2 = description.angular_acceleration_max_rad_s2,
           .speed_max_m_s = description.speed_max_m_s,
-          .time_step_s = description.time_step_s,
+          .time_step_s = description.time_step_s.value_or(0),
           .turns = description.shape != nullptr};
 }
 

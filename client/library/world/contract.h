@@ -1,6 +1,8 @@
 // Whether a state need not be sent: the client's side of the contract that the service checks.
 #pragma once
 
+#include <optional>
+
 #include "client/api/types.h"
 
 namespace collision::client {
@@ -9,10 +11,10 @@ namespace collision::client {
 struct MotionBounds {
   double acceleration_max_m_s2 = 0;
   double jerk_max_m_s3 = 0;
-  double angular_acceleration_max_rad_s2 = -1;  ///< < 0: not declared.
-  double speed_max_m_s = 0;                     ///< 0: not declared.
-  double time_step_s = 0;
-  bool turns = false;  ///< It has a shape, so its orientation counts.
+  std::optional<double> angular_acceleration_max_rad_s2 = {};
+  std::optional<double> speed_max_m_s = {};
+  double time_step_s = 0;  ///< 0: the motion is continuous.
+  bool turns = false;      ///< It has a shape, so its orientation counts.
 };
 
 MotionBounds BoundsOf(const AgentDescription& description);

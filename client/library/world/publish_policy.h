@@ -33,7 +33,7 @@ struct PublishPolicy {
 class OutgoingStates {
  public:
   /// A jump that was staged stays recorded when a later state replaces it. Throws
-  /// std::invalid_argument if the stamp lies before that of the state sent last; with a wall clock
+  /// std::invalid_argument if the stamp lies before that of the state sent last; in real time
   /// such a state is dropped.
   void Stage(const State& state, const MotionBounds& bounds, const PublishPolicy& policy);
 

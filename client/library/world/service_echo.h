@@ -8,7 +8,7 @@
 
 namespace collision::client {
 
-/// With a wall clock every clock of a simulator answers the newest sample that it has heard of the
+/// In real time every clock of a simulator answers the newest sample that it has heard of the
 /// service: from the two times of the service and the two of the simulator the service learns how
 /// far their clocks are apart (idl/PROTOCOL.md, Wall clock). Book-keeping only.
 class ServiceEcho {

@@ -1,6 +1,7 @@
 #include "client/api/world.h"
 
 #include <exception>
+#include <stdexcept>
 #include <utility>
 
 #include "client/library/network/dds_transport.h"
@@ -40,6 +41,27 @@ bool World::WaitForService(std::chrono::nanoseconds timeout) {
 
 Agent World::AddAgent(const AgentDescription& description, const State& state) {
   return Agent(implementation_, implementation_->AddAgent(description, state));
+}
+
+void World::SetStates(std::span<const Agent> agents, std::span<const State> states) {
+  if (agents.size() != states.size()) {
+    throw std::invalid_argument("states: " + std::to_string(states.size()) +
+                                ", allowed: one for each of the " + std::to_string(agents.size()) +
+                                " agents");
+  }
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const auto& owner = agents[i].world_;
+    if (!owner.owner_before(implementation_) && !implementation_.owner_before(owner)) continue;
+    throw std::invalid_argument("agents[" + std::to_string(i) +
+                                "]: of another World, or removed, allowed: agents of this World");
+  }
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    try {
+      implementation_->SetState(agents[i].id_, states[i]);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("states[" + std::to_string(i) + "]: " + error.what());
+    }
+  }
 }
 
 void World::Publish(std::int64_t clock_ns) { implementation_->Publish(clock_ns); }

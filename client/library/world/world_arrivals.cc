@@ -166,7 +166,7 @@ void World::Implementation::Handle(const v1::Clearance& told) {
   const v1::Clearance& clearance = least_.Take(told, fit_.RegionsOf(told.stamp().service_id()));
   // All chunks carry the grant. The service writes chunk 0 after the others, so a simulator that
   // takes the grant from there knows all clearances as of that time, and which states are wanted.
-  // With a wall clock there is no grant.
+  // In real time there is no grant.
   if (clearance.chunk() == 0 && clearance.granted_until_ns() != kNever &&
       clearance.granted_until_ns() > granted_until_ns_) {
     granted_until_ns_ = clearance.granted_until_ns();

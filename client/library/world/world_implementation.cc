@@ -60,6 +60,7 @@ World::Implementation::Implementation(const WorldOptions& options,
       simulator_id_(SimulatorId(options.simulator)),
       run_(options.run != 0 ? options.run : RunByClock()),
       lock_step_(options.lock_step),
+      on_leave_(options.on_leave),
       transport_(std::move(transport)),
       arrival_(run_, options.incarnation != 0 ? options.incarnation : DrawIncarnation(),
                options.lock_step),
@@ -312,7 +313,7 @@ void World::Implementation::RepeatClock() {
 }
 
 void World::Implementation::Tend() {
-  // With a wall clock it tells before its first clock that it is there, and how far that is off.
+  // In real time it tells before its first clock that it is there, and how far that is off.
   const bool present = !lock_step_ && agents_.size() > 0;
   if (closed_ || (!clock_published_ && !present)) return;
   const bool again = MustReintroduce();
@@ -351,12 +352,19 @@ void World::Implementation::Finish() {
 
 void World::Implementation::Close() {
   closed_ = true;
-  if (agents_.size() > 0) return;
   try {
-    Finish();
+    // Of a name that another program has nothing counts.
+    if (on_leave_ == OnLeave::kRemove && !arrival_.waits()) RemoveAgents();
+    if (agents_.size() == 0) Finish();
   } catch (const std::exception&) {
     // A destructor cannot report it. Without a network the service waits, as if this process had
     // been killed.
+  }
+}
+
+void World::Implementation::RemoveAgents() {
+  for (const v1::AgentDescription& agent : agents_.Descriptions()) {
+    RemoveAgent({simulator_id_, run_, agent.slot(), agent.generation()});
   }
 }
 

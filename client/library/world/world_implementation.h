@@ -59,7 +59,8 @@ class World::Implementation {
 
   void Finish();
 
-  /// The World is gone: no more callbacks, and agents' handles do nothing.
+  /// The World is gone, with its agents if they are to leave: no more callbacks, and agents'
+  /// handles do nothing.
   void Close();
   bool closed() const { return closed_; }
 
@@ -129,11 +130,12 @@ class World::Implementation {
   /// Repeats everything that still holds.
   void Reintroduce();
   void WriteDescription(const AgentId& id);
+  void RemoveAgents();
 
   /// Hands messages to the network.
   ShapePublisher::Writer Writer();
 
-  /// Wall clock: the service's clock was set, and it has forgotten all states.
+  /// In real time: the service's clock was set, and it has forgotten all states.
   void BeginEpoch();
   void Void(const std::vector<AgentId>& agents, v1::ClearanceCause cause);
 
@@ -182,6 +184,7 @@ class World::Implementation {
   const std::uint64_t simulator_id_;
   std::uint32_t run_;
   const bool lock_step_;
+  const OnLeave on_leave_;
   std::unique_ptr<Transport> transport_;
   Arrival arrival_;
   AgentTable agents_;

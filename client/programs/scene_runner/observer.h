@@ -50,7 +50,7 @@ class Observer {
 
   /// Latency from update to event [s], one for every change of status except withdrawals: from this
   /// monitor's receipt of the newest states that the event can follow from to its receipt of the
-  /// event. Those are the newest states stamped not later than the event's time: with a wall clock
+  /// event. Those are the newest states stamped not later than the event's time: in real time
   /// those of both agents' owners, in lock-step those of all simulators (the last of them lets the
   /// service's time advance); the latest receipt counts.
   const std::vector<double>& latencies() const { return latencies_; }

@@ -27,7 +27,7 @@ using std::chrono::steady_clock;
 constexpr std::chrono::seconds kStuck{120};
 constexpr std::chrono::nanoseconds kRealTimeLead{
     3'000'000'000};                             // until all programs have discovered each other
-constexpr std::int64_t kTransit = 200'000'000;  // [ns] delay of samples, with a wall clock
+constexpr std::int64_t kTransit = 200'000'000;  // [ns] delay of samples, in real time
 constexpr double kGrantAheadDefault = 10;       // [s] the service's default
 constexpr double kPersonSeconds = 300;  // a person's flight lasts at most this long by default
 constexpr std::uint32_t kDomains = 200;
@@ -105,14 +105,15 @@ void Runner::StartService() {
   v1::Config config = scene_.config();
   config.set_world(world_);
   config.set_domain(domain_);
-  if (options_.real_time) config.mutable_clock()->set_kind(v1::Clock::WALL);
+  if (options_.real_time) config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   std::string text;
   google::protobuf::TextFormat::PrintToString(config, &text);
   WriteFile(Path("collisiond.textproto"), text);
   service_ = std::make_unique<ChildProcess>(
       "collisiond",
       std::vector<std::string>{(fs::path(options_.folders.bin) / "collisiond").string(), "--config",
-                               Path("collisiond.textproto")},
+                               Path("collisiond.textproto"), "--world", world_, "--domain",
+                               std::to_string(domain_)},
       Path("collisiond.log"));
 }
 

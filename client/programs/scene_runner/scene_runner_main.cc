@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   app.add_flag("--list", list, "List the scenes");
   app.add_option("--seconds", options.seconds, "Simulated length; default: as the scene says")
       ->check(Finite(kSecondsMax, false));
-  app.add_flag("--real-time", options.real_time, "With the wall clock instead of lock-step");
+  app.add_flag("--real-time", options.real_time, "In real time instead of lock-step");
   app.add_flag("--stream", options.stream,
                "Simulators send every state, not only those that the service needs: to compare");
   app.add_option("--config", options.config,

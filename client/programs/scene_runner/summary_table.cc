@@ -106,7 +106,7 @@ std::string SummaryTable(const v1::RunReport& report, const checker::Evidence& e
   const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
   std::string text;
   Row(&text, "\n%s", report.scene().c_str());
-  Row(&text, "  %-30s %.1f s in %.1f s", "simulated, on the wall clock", report.simulated_seconds(),
+  Row(&text, "  %-30s %.1f s in %.1f s", "flown in real time", report.simulated_seconds(),
       report.wall_seconds());
   if (report.real_time_fraction() > 0) {
     Row(&text, "  %-30s %.3g of real time", "", report.real_time_fraction());

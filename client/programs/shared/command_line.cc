@@ -8,17 +8,24 @@ namespace collision::client {
 
 CLI::Range DomainRange() { return {0, int{wire::kDomainMax}}; }
 
-void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
-  app->add_option("--world", options->world, "World to join")->capture_default_str();
-  app->add_option("--simulator", options->simulator, "Name of this simulator, unique in the world")
-      ->required();
-  app->add_option("--domain", options->domain, "DDS domain")
+void AddWorldOptions(CLI::App* app, const std::string& purpose, std::string* world,
+                     std::uint32_t* domain) {
+  app->add_option("--world", *world, purpose)->envname("COLLISION_WORLD")->capture_default_str();
+  app->add_option("--domain", *domain, "DDS domain")
+      ->envname("COLLISION_DOMAIN")
       ->check(DomainRange())
       ->capture_default_str();
+}
+
+void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
+  AddWorldOptions(app, "World to join", &options->world, &options->domain);
+  app->add_option("--simulator", options->simulator, "Name of this simulator, unique in the world")
+      ->required();
   auto* real_time = app->add_flag("--real-time", options->real_time,
-                                  "Use wall-clock time for stamps, without lock-step");
+                                  "Stamps are times since 1970, and no simulator waits");
   app->add_flag_callback(
-         "--lock-step", [] {}, "The clock moves as the service grants it (the default)")
+         "--lock-step", [] {},
+         "All simulators advance together, as the service grants (the default)")
       ->excludes(real_time);
   app->add_option("--speed", options->speed,
                   "Lock-step: at most X simulated seconds per second; 0: as fast as granted")

@@ -13,6 +13,11 @@ namespace collision::client {
 /// The DDS domains that there are (idl/limits.h).
 CLI::Range DomainRange();
 
+/// Adds --world and --domain, which may be set for all programs by COLLISION_WORLD and
+/// COLLISION_DOMAIN.
+void AddWorldOptions(CLI::App* app, const std::string& purpose, std::string* world,
+                     std::uint32_t* domain);
+
 /// Adds --world, --simulator, --domain, --lock-step, --real-time, ... to the command line.
 void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options);
 

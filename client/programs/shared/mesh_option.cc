@@ -29,23 +29,27 @@ std::shared_ptr<const Shape> LoadMesh(const MeshOptions& options, bool quiet) {
 
 }  // namespace
 
-void AddMeshFrameOptions(CLI::App* app, const std::string& unit, const std::string& up,
-                         const std::string& centre, MeshFileOptions* options) {
-  app->add_option(unit, options->unit_m, "One unit of the mesh file in metres")
+void AddMeshFrameOptions(CLI::App* app, MeshFileOptions* options) {
+  app->add_option("--mesh-unit", options->unit_m, "One unit of the mesh file in metres")
       ->check(Finite(kUnitMax, false));
   const auto set = [options](const std::string& axis) {
     options->up = axis == "x" ? UpAxis::kX : axis == "y" ? UpAxis::kY : UpAxis::kZ;
   };
-  app->add_option_function<std::string>(up, set, "The file's axis that points up")
+  app->add_option_function<std::string>("--mesh-up", set, "The file's axis that points up")
       ->check(CLI::IsMember({"x", "y", "z"}));
-  app->add_flag(centre, options->centre,
+  app->add_flag("--mesh-centre", options->centre,
                 "The reference point is the centre of the mesh's box, not the file's origin");
+}
+
+void AddRequiredMeshFrameOptions(CLI::App* app, MeshFileOptions* options) {
+  AddMeshFrameOptions(app, options);
+  for (const char* name : {"--mesh-unit", "--mesh-up"}) app->get_option(name)->required();
 }
 
 void AddMeshOptions(CLI::App* app, MeshOptions* options) {
   auto* mesh =
       app->add_option("--mesh", options->file, "Shape of the agents: OBJ, STL, PLY, glTF or GLB");
-  AddMeshFrameOptions(app, "--mesh-unit", "--mesh-up", "--mesh-centre", &options->frame);
+  AddMeshFrameOptions(app, &options->frame);
   app->add_option(
       "--solids", options->solids,
       "Convex solids, part of the shape beside --mesh: protobuf text (idl/solids.proto)");

@@ -19,9 +19,11 @@ struct MeshOptions {
 /// --mesh-centre and --solids FILE.
 void AddMeshOptions(CLI::App* app, MeshOptions* options);
 
-/// Adds unit, up-axis and centre alone, under these names.
-void AddMeshFrameOptions(CLI::App* app, const std::string& unit, const std::string& up,
-                         const std::string& centre, MeshFileOptions* options);
+/// Adds --mesh-unit, --mesh-up and --mesh-centre alone.
+void AddMeshFrameOptions(CLI::App* app, MeshFileOptions* options);
+
+/// The same for a program that has no use without a mesh: unit and up-axis are required.
+void AddRequiredMeshFrameOptions(CLI::App* app, MeshFileOptions* options);
 
 /// The mesh of --mesh and the solids of --solids as one shape; null without either. Prints what was
 /// read, unless `quiet`. Throws BadInput with the file's name where LoadShape(), ReadSolids() or

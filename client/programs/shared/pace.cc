@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "client/api/event_text.h"
+#include "client/library/notices/notices.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/grant_patience.h"
 #include "client/programs/shared/stop_signal.h"
@@ -50,6 +51,11 @@ std::string GrantedText(std::int64_t granted_ns) {
 }  // namespace
 
 Pace::Pace(const SimulatorOptions& options) : options_(options), world_(Connect(options)) {
+  if (!options.quiet) {
+    std::fprintf(stderr, "%s: %s, %s\n", options.simulator.c_str(),
+                 PlaceText(options.world, options.domain).c_str(),
+                 options.real_time ? "real time" : "lock-step");
+  }
   world_.OnNotice([this](const Notice& notice) { Hear(notice); });
   world_.OnWaiting([this](const std::vector<std::string>& names) { waited_for_ = names; });
   world_.OnServiceLost([this] { has_service_ = false; });

@@ -17,13 +17,14 @@ struct SimulatorOptions {
   std::string simulator;
   std::uint32_t domain = 0;
   bool real_time = false;      ///< Wall-clock stamps; otherwise lock-step.
-  std::int64_t start_ns = -1;  ///< Wall clock: the run's start since 1970; -1: now.
+  std::int64_t start_ns = -1;  ///< In real time: the run's start since 1970; -1: now.
   double speed = 0;     ///< Lock-step: at most this many simulated seconds a second; 0: no limit.
   double seconds = 0;   ///< Length of the run.
   bool linger = false;  ///< At the end wait for SIGTERM, so that the service can decide everything.
   bool stream = false;  ///< Send every state, not only those that the service needs.
   std::string motion_log;
   std::string traffic;  ///< File for the numbers of states set and sent; empty: none.
+  bool quiet = false;   ///< Do not print where it looks for the service.
 };
 
 /// One step of a simulator's loop.
@@ -35,7 +36,7 @@ struct PaceStep {
 
 class Pace {
  public:
-  /// Connects and waits for the service, at most 20 s. Throws std::runtime_error.
+  /// Connects, prints where, and waits for the service, at most 20 s. Throws std::runtime_error.
   explicit Pace(const SimulatorOptions& options);
   Pace(const Pace&) = delete;
   Pace& operator=(const Pace&) = delete;

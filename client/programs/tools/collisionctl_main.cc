@@ -10,7 +10,9 @@
 #include "client/library/deadline.h"
 #include "client/library/network/conversion.h"
 #include "client/library/network/dds_transport.h"
+#include "client/library/notices/notices.h"
 #include "client/library/validation.h"
+#include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/agents_watcher.h"
 #include "client/programs/tools/collisionctl/json_pages.h"
@@ -154,6 +156,7 @@ void Print(const std::string& command, const Options& options, WorldView* view) 
 }
 
 int Run(const std::string& command, const Options& options) {
+  std::cerr << "collisionctl: " << PlaceText(options.monitor.world, options.monitor.domain) << '\n';
   WorldView view;
   MessageMonitor monitor(options.monitor, view.Callbacks());
   const Deadline deadline(Seconds(options.timeout_s));
@@ -202,20 +205,18 @@ Examples:
   collisionctl events                   the current revision of every event
   collisionctl events --follow          one line per revision as it comes, until Ctrl-C
   collisionctl evict NAME               remove a simulator with its agents
-  collisionctl restart-time             let simulated time begin anew, for all simulators
+  collisionctl restart-time             lock-step: let time begin anew, for all simulators
   collisionctl sphere-tree ship.obj     how well the spheres of a mesh fit it (needs no service)
   collisionctl --world lab events --follow --json | jq 'select(.status == "EVENT_CONFIRMED")'
 
 Only evict and restart-time change anything in the world. The network is that of Cyclone DDS, set
-by CYCLONEDDS_URI. Exit codes: 0 done, 1 refused or not answered within the timeout, 2 usage, 69 no
-service within the timeout or no DDS, 74 the output cannot be written.)";
+by CYCLONEDDS_URI; it is printed on standard error at the start, with world and domain. Exit codes:
+0 done, 1 refused or not answered within the timeout, 2 usage, 69 no service within the timeout or
+no DDS, 74 the output cannot be written.)";
 
 /// The options, and the commands that show something.
 void AddViews(CLI::App* app, Options* options) {
-  app->add_option("--world", options->monitor.world, "World to look at")->capture_default_str();
-  app->add_option("--domain", options->monitor.domain,
-                  "DDS domain, 0 to " + std::to_string(kDomainMax))
-      ->capture_default_str();
+  AddWorldOptions(app, "World to look at", &options->monitor.world, &options->monitor.domain);
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a service, 0 to 1e6")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
@@ -245,7 +246,8 @@ int Main(int argc, char** argv) {
   std::string evicted;
   CLI::App* evict = app.add_subcommand("evict", "Remove a simulator, also if its process lives");
   evict->add_option("NAME", evicted, "Its name")->required();
-  CLI::App* restart = app.add_subcommand("restart-time", "Let simulated time begin anew");
+  CLI::App* restart =
+      app.add_subcommand("restart-time", "Lock-step: let the world's time begin anew");
   SphereTreeOptions tree;
   const CLI::App* sphere_tree = AddSphereTreeCommand(&app, &tree);
   try {
@@ -279,6 +281,8 @@ int Main(int argc, char** argv) {
   if (evict->parsed() || restart->parsed()) {
     const auto kind = evict->parsed() ? v1::OPERATOR_EVICT : v1::OPERATOR_RESTART_TIME;
     try {
+      std::cerr << "collisionctl: " << PlaceText(options.monitor.world, options.monitor.domain)
+                << '\n';
       return RunOperatorRequest(options.monitor.world, options.monitor.domain, options.timeout_s,
                                 MakeCommand(kind, evicted), options.json);
     } catch (const std::runtime_error& error) {

@@ -12,9 +12,9 @@ namespace {
 
 constexpr const char* kFooter = R"(
 Examples:
-  mesh-info ship.obj --unit-m 1 --up z          metres, z upwards
-  mesh-info part.stl --unit-m 0.001 --up z      millimetres
-  mesh-info drone.glb --unit-m 1 --up y         glTF is metres and y upwards by definition
+  mesh-info ship.obj --mesh-unit 1 --mesh-up z          metres, z upwards
+  mesh-info part.stl --mesh-unit 0.001 --mesh-up z      millimetres
+  mesh-info drone.glb --mesh-unit 1 --mesh-up y         glTF is metres and y upwards by definition
 
 An open surface has no inside: only crossing triangles are a contact.
 Exit codes: 0 fit, 2 usage, 65 the mesh is refused (the reason is printed).)";
@@ -38,9 +38,7 @@ int Main(int argc, char** argv) {
   std::string file;
   MeshFileOptions options;
   app.add_option("file", file, "OBJ, STL, PLY, glTF or GLB")->required();
-  AddMeshFrameOptions(&app, "--unit-m", "--up", "--centre", &options);
-  app.get_option("--unit-m")->required();
-  app.get_option("--up")->required();
+  AddRequiredMeshFrameOptions(&app, &options);
   app.footer(kFooter);
   try {
     app.parse(argc, argv);

@@ -3,6 +3,7 @@
 #include <google/protobuf/stubs/strutil.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <sstream>
 
 #include "server/config/config.h"
@@ -24,6 +25,7 @@ Examples:
   collisiond --print-config > F                 write all defaults, explained
   collisiond --calibrate                        how fast the narrow phase is on this machine
   collisiond --domain 7 --log-level debug       override two settings
+  COLLISION_WORLD=lab collisiond                the same for all programs of a shell
   collisiond --record run.rec                   serve, and keep every input
   collisiond --replay run.rec > events.jsonl    repeat that run without a network
 
@@ -74,8 +76,14 @@ void Define(CLI::App* app, Options* options) {
       "Measure work_units_per_us on this machine, print the line for the configuration, and end");
   app->set_version_flag("--version", std::string("collisiond ") + Version(),
                         "Print the version and end");
+  auto* world =
+      app->add_option("--world", options->world,
+                      "World, instead of the configured one; default: COLLISION_WORLD, if set")
+          ->check(AllowedBy("world"));
   auto* domain =
-      app->add_option("--domain", options->domain, "DDS domain, instead of the configured one")
+      app->add_option(
+             "--domain", options->domain,
+             "DDS domain, instead of the configured one; default: COLLISION_DOMAIN, if set")
           ->check(AllowedBy("domain"));
   app->add_option("--log-level", options->log_level, "Log level, instead of the configured one")
       ->check(AllowedBy("log_level"));
@@ -88,9 +96,28 @@ void Define(CLI::App* app, Options* options) {
                       "configuration; prints each event of its readers as a line of JSON");
   for (auto* file : {config, record, replay}) file->type_name("FILE")->check(NotEmpty());
   check->needs(config)->excludes(print);
-  for (auto* other : {config, check, print, domain, record}) replay->excludes(other);
+  for (auto* other : {config, check, print, world, domain, record}) replay->excludes(other);
   for (auto* other : {check, print}) record->excludes(other);
-  for (auto* other : {config, check, print, domain, record, replay}) calibrate->excludes(other);
+  for (auto* other : {config, check, print, world, domain, record, replay})
+    calibrate->excludes(other);
+}
+
+/// A variable that is set and not empty, if the configuration allows it as this field.
+std::optional<std::string> Variable(const char* name, const char* field) {
+  const char* value = std::getenv(name);
+  if (value == nullptr || *value == '\0') return std::nullopt;
+  std::string text = value;
+  const std::string error = AllowedBy(field)(text);
+  if (!error.empty()) throw CLI::ValidationError(name, error);
+  return text;
+}
+
+/// The same for the programs of simulators and monitors, so that one setting is for all.
+void TakeEnvironment(Options* options) {
+  if (options->calibrate || !options->replay_file.empty()) return;
+  if (!options->world) options->world = Variable("COLLISION_WORLD", "world");
+  const auto domain = options->domain ? std::nullopt : Variable("COLLISION_DOMAIN", "domain");
+  if (domain) options->domain = static_cast<std::uint32_t>(std::stoul(*domain));
 }
 
 }  // namespace
@@ -103,6 +130,7 @@ OptionsResult ParseOptions(int argc, const char* const* argv) {
   Define(&app, &options);
   try {
     app.parse(argc, argv);
+    TakeEnvironment(&options);
     result.options = options;
   } catch (const CLI::ParseError& error) {
     std::ostringstream output, errors;

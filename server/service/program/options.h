@@ -14,10 +14,12 @@ struct Options {
   bool check_config = false;
   bool print_config = false;
   bool calibrate = false;
-  std::optional<std::uint32_t> domain;   ///< Over the configuration's.
-  std::optional<std::string> log_level;  ///< Likewise.
-  std::string record_file;               ///< Empty: nothing is recorded.
-  std::string replay_file;               ///< Empty: the daemon serves.
+  /// These go before the configuration's; from the environment if the command line is silent.
+  std::optional<std::string> world;
+  std::optional<std::uint32_t> domain;
+  std::optional<std::string> log_level;
+  std::string record_file;  ///< Empty: nothing is recorded.
+  std::string replay_file;  ///< Empty: the daemon serves.
 };
 
 struct OptionsResult {

@@ -261,6 +261,7 @@ int Run(const Options& options) {
       options.config_file.empty() ? ParseConfig("", "") : LoadConfig(options.config_file);
   for (const std::string& error : loaded.errors) std::cerr << error << '\n';
   if (!loaded.ok()) return kExitConfiguration;
+  if (options.world) loaded.config.set_world(*options.world);
   if (options.domain) loaded.config.set_domain(*options.domain);
   if (options.log_level) loaded.config.set_log_level(*options.log_level);
   if (options.print_config) std::cout << PrintConfig(loaded.config);

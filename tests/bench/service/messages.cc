@@ -81,7 +81,7 @@ struct Counts {
 
 Counts Fly(const Swarm& swarm, double seconds) {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
+  config.mutable_clock()->set_kind(v1::Clock::LOCK_STEP);
   config.mutable_clock()->set_grant_ahead_max_s(kGrantAheadMax);
   config.set_announce_within_s(kAnnounceWithin);
   client::InProcessService service(config, 0);

@@ -30,7 +30,7 @@ void ServeOurs(const std::string& world, std::uint32_t domain) {
   v1::Config config;
   config.set_world(world);
   config.set_domain(domain);
-  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   config.set_agents_max(kAgentsMax);
   config = server::CompleteConfig(config);
   server::DdsBus bus(world, domain);

@@ -72,13 +72,14 @@ TEST(Validation, AssemblyAndTagsAreShortAndKeysDiffer) {
 
 TEST(Validation, DescriptionsAreLimited) {
   using D = AgentDescription;
-  const D good{.name = "ball"};
+  const D good = Point();
   CheckLimits<D>(good, "radius_m", 0, kRadiusMax, [](D* d, double x) { d->radius_m = x; });
   CheckLimits<D>(good, "acceleration_max_m_s2", 0, kAccelerationMax,
                  [](D* d, double x) { d->acceleration_max_m_s2 = x; });
-  CheckLimits<D>(good, "angular_acceleration_max_rad_s2", -kAccelerationMax, kAccelerationMax,
+  CheckLimits<D>(good, "angular_acceleration_max_rad_s2", 0, kAccelerationMax,
                  [](D* d, double x) { d->angular_acceleration_max_rad_s2 = x; });
-  CheckLimits<D>(good, "speed_max_m_s", 0, kSpeedMax, [](D* d, double x) { d->speed_max_m_s = x; });
+  CheckLimits<D>(good, "speed_max_m_s", std::numeric_limits<double>::denorm_min(), kSpeedMax,
+                 [](D* d, double x) { d->speed_max_m_s = x; });
   CheckLimits<D>(good, "time_step_s", 0, kTimeStepMax, [](D* d, double x) { d->time_step_s = x; });
 }
 
@@ -150,9 +151,10 @@ TEST(Validation, QuaternionsAndDirectionsAreUnit) {
   EXPECT_NE(Complaint(State{.orientation = {1.0011, 0, 0, 0}}), "");
   EXPECT_NE(Complaint(State{.orientation = {0.9989, 0, 0, 0}}), "");
   EXPECT_NE(Complaint(State{.orientation = {1, kNaN, 0, 0}}), "");
-  EXPECT_EQ(Complaint(State{.thrust_direction = {0, -0.6, 0.8}}), "");
-  EXPECT_NE(Complaint(State{.thrust_direction = {0, 0, 1e-9}}), "");
-  EXPECT_NE(Complaint(State{.thrust_direction = {0, kNaN, 0}}), "");
+  EXPECT_EQ(Complaint(State{.thrust_direction = {{0, -0.6, 0.8}}}), "");
+  EXPECT_NE(Complaint(State{.thrust_direction = {{0, 0, 0}}}), "");
+  EXPECT_NE(Complaint(State{.thrust_direction = {{0, 0, 1e-9}}}), "");
+  EXPECT_NE(Complaint(State{.thrust_direction = {{0, kNaN, 0}}}), "");
 }
 
 TEST(Validation, InstantsAreBounded) {
@@ -163,10 +165,18 @@ TEST(Validation, InstantsAreBounded) {
 }
 
 TEST(Validation, NamesHaveALength) {
-  EXPECT_EQ(Complaint(AgentDescription{.name = std::string(64, 'x')}), "");
-  EXPECT_NE(Complaint(AgentDescription{.name = std::string(65, 'x')}), "");
-  EXPECT_NE(Complaint(AgentDescription{}), "");
-  EXPECT_NE(Complaint(AgentDescription{.name = "two\nlines"}), "");
+  EXPECT_EQ(Complaint(Point(std::string(64, 'x'))), "");
+  for (const std::string& name : {std::string(65, 'x'), std::string(), std::string("two\nlines")}) {
+    EXPECT_EQ(Complaint(Point(name)).rfind("name: ", 0), 0u) << Complaint(Point(name));
+  }
+}
+
+TEST(Validation, WhatIsRequiredMustBeGiven) {
+  EXPECT_EQ(Complaint(AgentDescription{.name = "ball", .radius_m = 1}),
+            "acceleration_max_m_s2: not given, allowed: 0 to 1e+18; 0 promises that its velocity "
+            "never changes");
+  EXPECT_EQ(Complaint(AgentDescription{.name = "ball", .acceleration_max_m_s2 = 1}),
+            "radius_m: not given, allowed: 0 to 1e+12; beside a shape it may be left out");
 }
 
 TEST(Validation, TheMessageNamesFieldValueAndRange) {
@@ -184,16 +194,18 @@ TEST(Validation, ARefusedValueChangesNothing) {
   const auto network = std::make_shared<FakeNetwork>();
   World world = ConnectTo(network);
   EXPECT_THROW(world.AddAgent({.name = "ball", .radius_m = kNaN}, {}), std::invalid_argument);
-  EXPECT_THROW(world.AddAgent({.name = "ball"}, {.expiry_ns = kNever - 1}), std::invalid_argument);
+  EXPECT_THROW(world.AddAgent(Point(), {.expiry_ns = kNever - 1}), std::invalid_argument);
   EXPECT_TRUE(network->written.empty());
-  Agent ball = world.AddAgent({.name = "ball"}, {.stamp_ns = 5});
+  Agent ball = world.AddAgent(Point(), {.stamp_ns = 5});
   EXPECT_EQ(ball.id().slot, 0u);
   world.Publish(5);
   network->written.clear();
   EXPECT_THROW(ball.SetState({.stamp_ns = 4}), std::invalid_argument);
   EXPECT_THROW(ball.SetState({.stamp_ns = 6, .position_m = {kInfinity, 0, 0}}),
                std::invalid_argument);
-  EXPECT_THROW(ball.SetDescription({.name = "ball", .time_step_s = -1}), std::invalid_argument);
+  AgentDescription changed = Point();
+  changed.time_step_s = -1;
+  EXPECT_THROW(ball.SetDescription(changed), std::invalid_argument);
   world.Publish(5);
   EXPECT_TRUE(network->written.empty());
 }

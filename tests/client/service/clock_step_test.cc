@@ -14,7 +14,7 @@ constexpr double kStepS = 0.02;
 
 v1::Config Wall() {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   config.mutable_clock()->set_skew_max_s(0.025);
   return config;
 }

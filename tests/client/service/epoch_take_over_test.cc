@@ -24,7 +24,7 @@ constexpr double kSceneS = 6.5;  ///< The agents touch from 5 to 5.67 s.
 
 v1::Config Wall() {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   config.mutable_clock()->set_skew_max_s(0.002);
   config.set_on_occupied(v1::Config::STAND_BY);
   return config;

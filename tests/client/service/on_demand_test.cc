@@ -107,7 +107,7 @@ v1::Config ConfigOf(const Plan& plan) {
   config.set_temporal_resolution_s(1.0 / 64);
   config.set_status_period_s(10);
   if (plan.wall) {
-    config.mutable_clock()->set_kind(v1::Clock::WALL);
+    config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
     config.mutable_clock()->set_skew_max_s(1e-6);
   } else {
     config.mutable_clock()->set_simulators_awaited(2);

@@ -31,10 +31,12 @@ class RestartTest : public testing::Test {
     Program program{service_.Connect(sender, {.simulator = "alpha",
                                               .lock_step = lock_step,
                                               .run = run,
-                                              .incarnation = static_cast<std::uint32_t>(sender)}),
+                                              .incarnation = static_cast<std::uint32_t>(sender),
+                                              .on_leave = OnLeave::kLeave}),
                     {}};
     for (std::size_t i = 0; i < agents; ++i) {
-      const AgentDescription description = {.name = "agent", .radius_m = 0.1};
+      const AgentDescription description = {
+          .name = "agent", .radius_m = 0.1, .acceleration_max_m_s2 = 0};
       program.agents.push_back(
           program.world.AddAgent(description, {.position_m = {static_cast<double>(i), 0, 0}}));
     }
@@ -152,7 +154,8 @@ TEST_F(RestartTest, ShapesComeAgain) {
   const auto box = Shape::Make({.solids = {Solid::Box({0.5, 0.3, 0.1})}});
   const auto start = [&](std::uint64_t sender) {
     Program program = Start(sender, static_cast<std::uint32_t>(sender), 1);
-    program.agents[0].SetDescription({.name = "box", .radius_m = 1, .shape = box});
+    program.agents[0].SetDescription(
+        {.name = "box", .radius_m = 1, .acceleration_max_m_s2 = 0, .shape = box});
     return program;
   };
   Program first = start(1);

@@ -16,7 +16,7 @@ class WideningTest : public testing::Test {
  protected:
   static v1::Config Wall() {
     v1::Config config;
-    config.mutable_clock()->set_kind(v1::Clock::WALL);
+    config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
     config.mutable_clock()->set_skew_max_s(0.025);
     return config;
   }

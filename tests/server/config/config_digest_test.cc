@@ -19,7 +19,7 @@ std::string OtherValue(const ConfigOption& option) {
   const auto other = [&](std::string_view one, std::string_view two) {
     return std::string(option.value == one ? two : one);
   };
-  if (option.path == "clock.kind") return "WALL";
+  if (option.path == "clock.kind") return "REAL_TIME";
   if (option.path == "clock.on_silent_simulator") return "RELEASE";
   if (option.path == "broad_phase") return "ALL_PAIRS";
   if (option.path == "tree_builder") return "OCTREE";

@@ -114,7 +114,7 @@ TEST(Config, ExampleFileDocumentsEveryField) {
 // Goal:   the defaults are those that the design states, and valid.
 TEST(Config, DefaultsAreAsDesignedAndValid) {
   for (const ConfigResult& result :
-       {ParseConfig("", "F"), ParseConfig("clock { kind: WALL }", "F")}) {
+       {ParseConfig("", "F"), ParseConfig("clock { kind: REAL_TIME }", "F")}) {
     EXPECT_TRUE(result.ok());
     EXPECT_EQ(result.config.world(), "default");
     EXPECT_EQ(result.config.domain(), 0u);
@@ -124,7 +124,7 @@ TEST(Config, DefaultsAreAsDesignedAndValid) {
     EXPECT_EQ(result.config.agents_max(), 1000u);
     EXPECT_EQ(result.config.clock().grant_ahead_max_s(), 10);
     EXPECT_EQ(result.config.clock().on_silent_simulator(), v1::Clock::WAIT);
-    const bool wall = result.config.clock().kind() == v1::Clock::WALL;
+    const bool wall = result.config.clock().kind() == v1::Clock::REAL_TIME;
     EXPECT_EQ(result.config.clock().skew_max_s(), wall ? 0.002 : 0);
   }
 }
@@ -163,7 +163,7 @@ TEST(Config, WordsAreChecked) {
   EXPECT_EQ(ErrorsOf(file, "\"\\377\""), 1) << "a recording could not carry it";
   EXPECT_EQ(ErrorsOf(*FindConfigOption("log_level"), "\"warn\""), 0);
   EXPECT_EQ(ErrorsOf(*FindConfigOption("log_level"), "\"warning\""), 1);
-  EXPECT_EQ(ErrorsOf(*FindConfigOption("kind"), "WALL"), 0);
+  EXPECT_EQ(ErrorsOf(*FindConfigOption("kind"), "REAL_TIME"), 0);
   for (const char* bad : {"UNSET", "MONOTONIC", "7"}) {
     EXPECT_EQ(ErrorsOf(*FindConfigOption("kind"), bad), 1) << bad;
   }
@@ -226,7 +226,7 @@ TEST(Config, TellsAllErrorsWithinClock) {
       {"clock.log_level: ", "; meant is log_level?"},
       {"clock.grant_ahead_max_s: ", "; allowed: 0.000001 to 86400 [s]"},
       {"clock.first_clock_max_s: ", "; allowed: 0 to 4000000000"},
-      {"clock.kind: ", "; allowed: SIMULATED or WALL"},
+      {"clock.kind: ", "; allowed: LOCK_STEP or REAL_TIME"},
       {"domain: ", "; allowed: 0 to 230"}};
   const std::vector<int> lines = {1, 2, 4, 5, 6, 7, 8, 9, 10, 11};
   for (const char* separator : {" ", "\n", "\n\t", " # what for\n"}) {
@@ -250,10 +250,24 @@ TEST(Config, MisplacedAndDoubledBlocksAreNamed) {
     const ConfigResult result = ParseConfig(text, "F");
     return result.errors.size() == 1 ? result.errors[0] : "not one error";
   };
-  EXPECT_TRUE(first("kind: WALL").ends_with("; meant is clock.kind?")) << first("kind: WALL");
+  EXPECT_TRUE(first("kind: REAL_TIME").ends_with("; meant is clock.kind?"))
+      << first("kind: REAL_TIME");
   EXPECT_TRUE(first("clock { }\nclock { kind: 7 }").starts_with("F:2: clock: "));
   EXPECT_TRUE(first("clock: 5\ndomain: 3").starts_with("F:1: clock: "));
   EXPECT_TRUE(first("clock { kind:\n}").starts_with("F:1: clock.kind: "));
+}
+
+// Goal:   a configuration with the words of an earlier version is refused with those of now.
+TEST(Config, TheFormerKindsOfClockAreNamedAnew) {
+  const std::pair<const char*, const char*> words[] = {{"SIMULATED", "LOCK_STEP"},
+                                                       {"WALL", "REAL_TIME"}};
+  for (const auto& [former, now] : words) {
+    const ConfigResult result =
+        ParseConfig("world: \"a\"\nclock { kind: " + std::string(former) + " }", "F");
+    ASSERT_EQ(result.errors.size(), 1u) << former;
+    EXPECT_EQ(result.errors[0], "F:2: clock.kind: " + std::string(former) + " is called " + now +
+                                    " now; allowed: LOCK_STEP or REAL_TIME");
+  }
 }
 
 // Goal:   fields that contradict each other are refused at the line of the one that is set, and
@@ -268,19 +282,20 @@ TEST(Config, ContradictingFieldsAreRefused) {
       {"clock { simulators_awaited: 65 }", "F:1: clock.simulators_awaited: "},
       {"clock {\n simulators_awaited: 2 }\nsimulators_max: 1", "F:2: clock.simulators_awaited: "},
       {"clock { simulators_awaited: 64 }", ""},
-      {"clock { kind: WALL skew_max_s: 0 }", "F:1: clock.skew_max_s: "},
-      {"clock { kind: WALL skew_max_s: 1e-6 }", ""},
+      {"clock { kind: REAL_TIME skew_max_s: 0 }", "F:1: clock.skew_max_s: "},
+      {"clock { kind: REAL_TIME skew_max_s: 1e-6 }", ""},
       {"clock { release_after_s: 6 }", "F:1: clock.release_after_s: "},
       {"clock { release_after_s: 5 }", ""},
       {"clock { release_after_s: 6 on_silent_simulator: RELEASE }", ""},
-      {"clock { kind: WALL on_silent_simulator: RELEASE }", "F:1: clock.on_silent_simulator: "},
-      {"clock { kind: WALL first_clock_max_s: 1 }", "F:1: clock.first_clock_max_s: "},
-      {"clock { kind: WALL shape_wait_max_s: 1 }", "F:1: clock.shape_wait_max_s: "},
-      {"clock {\n kind: WALL\n waiting_after_s: 1 }", "F:3: clock.waiting_after_s: "},
-      {"clock { kind: WALL waiting_after_s: 5 on_silent_simulator: WAIT }", ""},
+      {"clock { kind: REAL_TIME on_silent_simulator: RELEASE }",
+       "F:1: clock.on_silent_simulator: "},
+      {"clock { kind: REAL_TIME first_clock_max_s: 1 }", "F:1: clock.first_clock_max_s: "},
+      {"clock { kind: REAL_TIME shape_wait_max_s: 1 }", "F:1: clock.shape_wait_max_s: "},
+      {"clock {\n kind: REAL_TIME\n waiting_after_s: 1 }", "F:3: clock.waiting_after_s: "},
+      {"clock { kind: REAL_TIME waiting_after_s: 5 on_silent_simulator: WAIT }", ""},
       {"clock { wait_for_synchronisation_s: 1 }", "F:1: clock.wait_for_synchronisation_s: "},
       {"clock { wait_for_synchronisation_s: 0 }", ""},
-      {"clock { kind: WALL wait_for_synchronisation_s: 1 }", ""}};
+      {"clock { kind: REAL_TIME wait_for_synchronisation_s: 1 }", ""}};
   for (const auto& [text, error] : cases) {
     const ConfigResult result = ParseConfig(text, "F");
     const std::string first = result.ok() ? "" : result.errors[0];
@@ -295,7 +310,7 @@ std::string RandomValue(const ConfigOption& option, Random& random) {
   if (option.path == "log_level") return "\"debug\"";
   if (option.path == "frame" || option.path == "epoch_utc") return "\"ENU 47.4 8.5\"";
   if (option.path == "log_file" || option.path.ends_with("_dir")) return "\"/a b\\\"\\\\\"";
-  if (option.path == "clock.kind") return random.Chance(0.5) ? "WALL" : "SIMULATED";
+  if (option.path == "clock.kind") return random.Chance(0.5) ? "REAL_TIME" : "LOCK_STEP";
   if (option.path == "broad_phase") return random.Chance(0.5) ? "AUTO" : "ALL_PAIRS";
   if (option.path == "tree_builder") return random.Chance(0.5) ? "MEDIAN_SPLIT" : "FITTED";
   const bool needs_others = !option.only_with.empty() || option.path == "clock.release_after_s";

@@ -27,7 +27,7 @@ class AgentRegistryTest : public testing::Test {
     return CompleteConfig(config);
   }
 
-  explicit AgentRegistryTest(v1::Clock::Kind kind = v1::Clock::SIMULATED) : config(ConfigOf(kind)) {
+  explicit AgentRegistryTest(v1::Clock::Kind kind = v1::Clock::LOCK_STEP) : config(ConfigOf(kind)) {
     const std::string name = "alpha";
     alpha = world.ClaimFor(SimulatorId(name), kSender, 1, &name).simulator;
     SetTime(0);
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(EveryOrder, AgentRegistryOrderTest,
 
 class AgentRegistryWallTest : public AgentRegistryTest {
  protected:
-  AgentRegistryWallTest() : AgentRegistryTest(v1::Clock::WALL) {}
+  AgentRegistryWallTest() : AgentRegistryTest(v1::Clock::REAL_TIME) {}
 
   /// Says that no agent accelerates any more, `states_sequence` being its newest state.
   void DescribeAsUnaccelerated(std::uint64_t states_sequence) {

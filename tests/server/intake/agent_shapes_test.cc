@@ -19,7 +19,7 @@ class AgentShapesTest : public testing::Test {
 
   static v1::Config MakeConfig() {
     v1::Config config;
-    config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
+    config.mutable_clock()->set_kind(v1::Clock::LOCK_STEP);
     config.set_undescribed_after_s(3);
     return CompleteConfig(config);
   }

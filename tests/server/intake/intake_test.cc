@@ -267,7 +267,7 @@ TEST(Intake, RefusesClocksOfTheOtherKind) {
   for (const bool simulated : {true, false}) {
     v1::Config config = Simulated();
     if (!simulated) {
-      config.mutable_clock()->set_kind(v1::Clock::WALL);
+      config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
       config.mutable_clock()->set_skew_max_s(0.002);
     }
     ScriptedDaemon daemon(config);

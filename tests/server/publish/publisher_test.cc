@@ -186,7 +186,7 @@ TEST(Publisher, TheChunkOfTheGrantLeavesLastAndEachOnce) {
 TEST(Publisher, AClearanceThatRisesWaitsByTheWallClockOnly) {
   for (const bool wall : {false, true}) {
     v1::Config config;
-    if (wall) config.mutable_clock()->set_kind(v1::Clock::WALL);
+    if (wall) config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
     config = CompleteConfig(config);
     OneSimulator one(config);
     one.simulator->time().Grant(At(kSecond));

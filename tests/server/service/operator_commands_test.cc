@@ -114,10 +114,10 @@ TEST(OperatorCommands, RestartTimeCountsSimulatorsWithoutAClockApart) {
 
 TEST(OperatorCommands, AWallClockCannotBeRestarted) {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   ScriptedDaemon daemon(config);
   const std::string answer = AnswerTo(&daemon, Command(7, v1::OPERATOR_RESTART_TIME));
-  EXPECT_TRUE(answer.starts_with("refused: the world has a wall clock")) << answer;
+  EXPECT_TRUE(answer.starts_with("refused: the world runs in real time")) << answer;
   EXPECT_EQ(daemon.status().stamp().epoch(), 1u);
 }
 

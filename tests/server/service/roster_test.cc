@@ -234,7 +234,7 @@ TEST_F(RosterOfDaemonTest, AWallClockForgetsARosterThatAnEarlierConfigurationLef
   FlyTogether(5 * kSecond);
   ASSERT_EQ(journal_->simulators().size(), 2u);
   config_ = {};
-  config_.mutable_clock()->set_kind(v1::Clock::WALL);
+  config_.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   config_ = CompleteConfig(config_);
   Start();
   EXPECT_EQ(Extension(daemon_->status(), "waiting_for"), "");

@@ -197,7 +197,7 @@ TEST_F(SilenceTest, WhoDiedBeforeItsFirstClockMakesRoom) {
 
 v1::Config Wall(double remove_silent_after_s) {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   config.mutable_clock()->set_remove_silent_after_s(remove_silent_after_s);
   config.set_simulators_max(2);
   config.set_agents_max(2);

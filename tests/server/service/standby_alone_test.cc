@@ -16,7 +16,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 v1::Config Wall() {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   config.mutable_clock()->set_remove_silent_after_s(30);
   return config;
 }

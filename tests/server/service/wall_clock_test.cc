@@ -20,7 +20,7 @@ constexpr std::uint64_t kSender = 10;
 
 v1::Config Wall() {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   config.mutable_clock()->set_skew_max_s(1e-9 * kSkewNs);
   return config;
 }

@@ -13,7 +13,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 v1::Config Simulated(std::uint32_t awaited, v1::Clock::OnSilent on_silent = v1::Clock::WAIT) {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
+  config.mutable_clock()->set_kind(v1::Clock::LOCK_STEP);
   config.mutable_clock()->set_simulators_awaited(awaited);
   config.mutable_clock()->set_on_silent_simulator(on_silent);
   config.mutable_clock()->set_release_after_s(5);
@@ -271,7 +271,7 @@ TEST(World, NoSimulatorRunsFurtherAheadThanAllowed) {
 
 TEST(World, WallTimeFollowsTheWallClock) {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   config.mutable_clock()->set_skew_max_s(0.002);
   World world(CompleteConfig(config));
   const Simulator one(1, 1, 1, "a");
@@ -295,7 +295,7 @@ TEST(World, WallTimeFollowsTheWallClock) {
 TEST(World, AnEchoCountsIfItsSampleIsOnThePresentTimeScale) {
   constexpr std::uint64_t kService = 7;
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   config.mutable_clock()->set_skew_max_s(0.002);
   World world(CompleteConfig(config));
   std::int64_t wall_ns = 1000 * kSecond, steady_ns = 0;

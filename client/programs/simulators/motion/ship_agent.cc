@@ -27,8 +27,8 @@ void ShipAgent::SetState(const RigidState& body, std::int64_t stamp_ns, bool dis
     agent_->SetState(state);
     return;
   }
-  agent_.emplace(pace_->world().AddAgent(description_, state));
-  log_->Agent(description_.name, description_.radius_m, description_.shape);
+  agent_.emplace(pace_->world().AddAgent(description_, state));  // Checks that it has a radius.
+  log_->Agent(description_.name, *description_.radius_m, description_.shape);
   log_->Assembly(description_.name, description_.assembly);
 }
 
@@ -44,7 +44,7 @@ void ShipAgent::Handle(const Event& event) {
 bool ShipAgent::Answer(std::int64_t now_ns, RigidState* state) {
   bool bounced = false;
   for (const ShipContact& contact : contacts_.Take(*state, now_ns)) {
-    bounced = BounceOff(contact, description_.radius_m, state) || bounced;
+    bounced = BounceOff(contact, *description_.radius_m, state) || bounced;
   }
   if (bounced) log_->Jump(description_.name, now_ns);
   return bounced;

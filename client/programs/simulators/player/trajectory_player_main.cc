@@ -111,6 +111,7 @@ int Run(Options options) {
   TakeMesh(&options);
   CheckAgents(options, file);
   if (options.simulator.seconds <= 0) options.simulator.seconds = FileSeconds(file);
+  options.simulator.quiet = options.quiet;
   MotionLog log(options.simulator.motion_log);
   Pace pace(options.simulator);
   const std::vector<PlayedAgent> agents = Choose(options, file, pace.start_ns());
@@ -150,7 +151,7 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", options.simulator.seconds,
                  "Length of the run; default: to the last row")
       ->check(Finite(kRunSecondsMax, false));
-  app.add_flag("--quiet", options.quiet, "Print nothing");
+  app.add_flag("--quiet", options.quiet, "Print nothing but what goes wrong");
   AddMeshOptions(&app, &options.mesh);
   AddSimulatorOptions(&app, &options.simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;

@@ -118,14 +118,13 @@ void ServeTerrain(const TerrainOptions& options, Pace* pace, MotionLog* log) {
   AgentDescription description;
   description.name = options.name;
   description.shape = Shape::Make(TerrainMesh(options));
-  description.radius_m = description.shape->radius_m();
   description.acceleration_max_m_s2 = 0;
   description.angular_acceleration_max_rad_s2 = 0;
   State state;
   state.stamp_ns = pace->start_ns();
   state.position_m = {options.size_m / 2, options.size_m / 2, options.base_m};
   const Agent ground = pace->world().AddAgent(description, state);
-  log->Agent(description.name, description.radius_m, description.shape);
+  log->Agent(description.name, description.shape->radius_m(), description.shape);
   MotionPiece piece{pace->start_ns(), pace->start_ns(), {}};
   for (int axis = 0; axis < 3; ++axis) piece.coefficients[axis][0] = state.position_m[axis];
   pace->Fly(kRate, 1, [&](const PaceStep& step) {

@@ -28,7 +28,7 @@ inline constexpr double kTerrainSizeMax = 1e6;  ///< [m] The ground is flat: no 
 Triangles TerrainMesh(const TerrainOptions& options);
 
 /// Publishes the ground once, then only the clock. The ground declares that it never moves, so the
-/// service wants no further state. With a wall clock everything that flies inside the ground's ball
+/// service wants no further state. In real time everything that flies inside the ground's ball
 /// may touch it until the service has built the tree; in lock-step time waits for that.
 void ServeTerrain(const TerrainOptions& options, Pace* pace, MotionLog* log);
 

@@ -224,7 +224,7 @@ std::string StatusPage(const WorldView& view) {
   const v1::ServiceStatus& status = *view.status();
   std::string page =
       Troubles(view) + ServicesTable(view) + "\n" + Line("world", status.world()) +
-      Line("clock", status.simulated_clock() ? "simulated" : "wall") +
+      Line("clock", status.simulated_clock() ? "lock-step" : "real time") +
       (status.frame().empty() ? "" : Line("frame", status.frame())) +
       (status.epoch_utc().empty() ? "" : Line("epoch", status.epoch_utc())) +
       Line("now", SinceText(status.now_ns())) + Notes(kFacts, status) +

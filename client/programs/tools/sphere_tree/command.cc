@@ -31,16 +31,16 @@ struct OutputError : std::runtime_error {
 };
 
 constexpr const char* kFooter = R"(
-Examples:
-  collisionctl sphere-tree ship.obj                          every level: number and fit of balls
-  collisionctl sphere-tree ship.obj --builder octree         the reference builder instead
-  collisionctl sphere-tree ship.obj --picture ship.svg --level 3
-  collisionctl sphere-tree ship.obj --export obj --output balls.obj
-  collisionctl sphere-tree ship.obj --report json --levels 6
+Examples (--mesh-unit and --mesh-up are always stated, never guessed; M: --mesh-unit 1 --mesh-up z):
+  collisionctl sphere-tree ship.obj M                        every level: number and fit of balls
+  collisionctl sphere-tree ship.obj M --builder octree       the reference builder instead
+  collisionctl sphere-tree ship.obj M --picture ship.svg --level 3
+  collisionctl sphere-tree ship.obj M --export obj --output balls.obj
+  collisionctl sphere-tree ship.obj M --report json --levels 6
 
 Overshoot is how far a ball may reach beyond the surface (its radius + the signed distance of its
 centre), certified: the smaller it is, the sooner two agents are known to be apart or in contact.
-Lengths are metres after --unit-m, in the body frame that --up makes; 1 and z unless stated.
+Lengths are metres after --mesh-unit, in the body frame that --mesh-up makes.
 Exit codes: 0 done, 2 usage, 65 the mesh is refused (the reason is printed) or does not fit into the
 memory, 74 a file cannot be written.)";
 
@@ -148,7 +148,7 @@ CLI::App* AddSphereTreeCommand(CLI::App* app, SphereTreeOptions* options) {
   CLI::App* command = app->add_subcommand(
       "sphere-tree", "How well the sphere tree of a mesh file fits it; needs no service");
   command->add_option("mesh", options->mesh, "OBJ, STL, PLY, glTF or GLB")->required();
-  AddMeshFrameOptions(command, "--unit-m", "--up", "--centre", &options->frame);
+  AddRequiredMeshFrameOptions(command, &options->frame);
   command->add_option("--builder", options->builder, "octree or fitted")
       ->check(CLI::IsMember({"octree", "fitted"}))
       ->capture_default_str();

@@ -12,7 +12,7 @@ namespace collision::client {
 
 struct SphereTreeOptions {
   std::string mesh;
-  MeshFileOptions frame{.unit_m = 1, .up = UpAxis::kZ};
+  MeshFileOptions frame;
   std::string builder = "fitted";
   std::uint32_t levels = 13;
   std::string report;  ///< Empty: text, unless something is exported to standard output.

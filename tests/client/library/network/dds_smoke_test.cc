@@ -70,7 +70,7 @@ TEST_F(DdsSmokeTest, ASimulatorAServiceAndAMonitorMeet) {
   service.Flush();
   ASSERT_TRUE(world.WaitForService(std::chrono::seconds(30)));
 
-  Agent ball = world.AddAgent({.name = "ball", .radius_m = 0.5}, {});
+  Agent ball = world.AddAgent({.name = "ball", .radius_m = 0.5, .acceleration_max_m_s2 = 0}, {});
   EXPECT_EQ(world.AdvanceTo(1000, milliseconds(0)), Advance::kTimeout);
   std::vector<v1::Input> inputs;
   const auto clock_arrived = [&](std::int64_t clock_ns) {
@@ -150,7 +150,8 @@ TEST_F(DdsSmokeTest, AShapeComesAndGoes) {
         removals += input.has_shape_removal() && input.shape_removal().shape() == number;
       }
     };
-    Agent ship = world.AddAgent({.name = "ship", .radius_m = 300, .shape = shape}, {});
+    Agent ship = world.AddAgent(
+        {.name = "ship", .radius_m = 300, .acceleration_max_m_s2 = 0, .shape = shape}, {});
     ASSERT_TRUE(Until([&] {
       hear();
       return parts.size() == shape->bytes().size() / 49152 + 1;

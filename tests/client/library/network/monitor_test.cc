@@ -141,7 +141,8 @@ TEST_F(MonitorTest, StatesAndClearancesArriveOneByOne) {
     seen.push_back(id);
     EXPECT_EQ(state.stamp_ns, id.slot);
     EXPECT_EQ(state.position_m, (Vector3{1, 2, 3}));
-    EXPECT_EQ(state.expiry_ns, kNever);
+    EXPECT_FALSE(state.expiry_ns);
+    EXPECT_FALSE(state.thrust_direction);
   };
   callbacks.clearance = [&](const AgentId& id, const Clearance& arrived) {
     clear.push_back(id);

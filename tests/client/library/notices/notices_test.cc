@@ -229,7 +229,7 @@ TEST_F(WorldNoticesTest, AStepThatIsNotGrantedNamesWhoHoldsTime) {
 TEST_F(WorldNoticesTest, ARefusalAndABreachNameTheAgent) {
   network_->alive = true;
   world_.OnNotice([&](const Notice& notice) { told_.push_back(notice); });
-  const Agent ball = world_.AddAgent({.name = "ball"}, {});
+  const Agent ball = world_.AddAgent(Point(), {});
   v1::Rejection* rejection = network_->arriving.emplace_back().mutable_rejection();
   rejection->mutable_stamp()->set_service_id(1);
   rejection->mutable_stamp()->set_term(1);
@@ -246,6 +246,7 @@ TEST_F(WorldNoticesTest, ARefusalAndABreachNameTheAgent) {
   v1::AgentClearance* agent = clearance->add_agents();
   agent->set_generation(1);
   agent->set_cause(v1::CAUSE_BREACH);
+  agent->set_lowerings(1);
   agent->mutable_cause_agent()->set_simulator_id(SimulatorId(kSimulator));
   agent->mutable_cause_agent()->set_run(kRun);
   world_.Poll();

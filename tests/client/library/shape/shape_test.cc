@@ -111,7 +111,10 @@ TEST(Shape, TooManyTrianglesAreRefusedBeforeAnythingIsMadeOfThem) {
 }
 
 TEST(Shape, MustLieWithinItsAgentsBall) {
-  AgentDescription description{.name = "ship", .radius_m = 6, .shape = Shape::Make(Tetrahedron())};
+  AgentDescription description{.name = "ship",
+                               .radius_m = 6,
+                               .acceleration_max_m_s2 = 0,
+                               .shape = Shape::Make(Tetrahedron())};
   EXPECT_NO_THROW(Validate(description));
   description.radius_m = 6 * (1 - 0.9 * kShapeRadiusTolerance);
   EXPECT_NO_THROW(Validate(description)) << "what rounding makes of a radius is no reason";

@@ -30,9 +30,9 @@ motion::MotionState ToCore(const State& state) {
   core.position_error = state.position_error_m;
   core.velocity_error = state.velocity_error_m_s;
   core.rotation_error = state.rotation_error_rad;
-  core.direction = ToVector(state.thrust_direction);
+  core.direction = ToVector(state.thrust_direction.value_or(Vector3{}));
   core.direction_until = Instant::FromNanoseconds(state.direction_until_ns);
-  core.expiry = Instant::FromNanoseconds(state.expiry_ns);
+  core.expiry = Instant::FromNanoseconds(state.expiry_ns.value_or(kNever));
   return core;
 }
 
@@ -42,7 +42,7 @@ motion::ContractVerdict ServiceSays(const MotionBounds& bounds, const State& sen
   before.state = ToCore(sent);
   before.limits.acceleration_max = bounds.acceleration_max_m_s2;
   before.limits.time_step = bounds.time_step_s;
-  before.limits.angular_acceleration_max = bounds.angular_acceleration_max_rad_s2;
+  before.limits.angular_acceleration_max = bounds.angular_acceleration_max_rad_s2.value_or(-1);
   const auto orientation =
       bounds.turns ? motion::OrientationUse::kMatters : motion::OrientationUse::kIgnored;
   return CheckContract(before, ToCore(next), orientation).verdict;
@@ -90,9 +90,9 @@ StatePair RandomPair(Random* random) {
       random->Uniform(0, 1.3) * acceleration_max * s * random->UnitVector();
   next.position_m = ToArray(ToVector(sent.position_m) + moved);
   next.velocity_m_s = ToArray(ToVector(sent.velocity_m_s) + sped);
-  next.orientation = About(
-      axis, ToVector(sent.angular_velocity_rad_s).norm() * s +
-                random->Uniform(-1, 1) * 0.6 * s * s * pair.bounds.angular_acceleration_max_rad_s2);
+  next.orientation = About(axis, ToVector(sent.angular_velocity_rad_s).norm() * s +
+                                     random->Uniform(-1, 1) * 0.6 * s * s *
+                                         *pair.bounds.angular_acceleration_max_rad_s2);
   return pair;
 }
 
@@ -151,7 +151,7 @@ TEST(Contract, EveryNewDeclarationIsSent) {
   const State sent{.position_error_m = 0.1,
                    .velocity_error_m_s = 0.1,
                    .rotation_error_rad = 0.1,
-                   .thrust_direction = {1, 0, 0},
+                   .thrust_direction = {{1, 0, 0}},
                    .direction_until_ns = 5 * kSecond,
                    .expiry_ns = 9 * kSecond};
   State next = sent;
@@ -166,10 +166,10 @@ TEST(Contract, EveryNewDeclarationIsSent) {
   expect_told("position_error_m", [](State* s) { s->position_error_m = 0.11; });
   expect_told("velocity_error_m_s", [](State* s) { s->velocity_error_m_s = 0.11; });
   expect_told("rotation_error_rad", [](State* s) { s->rotation_error_rad = 0.11; });
-  expect_told("thrust_direction", [](State* s) { s->thrust_direction = {0, 1, 0}; });
+  expect_told("thrust_direction", [](State* s) { s->thrust_direction = {{0, 1, 0}}; });
   expect_told("direction_until_ns", [](State* s) { s->direction_until_ns += 1; });
-  expect_told("expiry_ns, later", [](State* s) { s->expiry_ns += 1; });
-  expect_told("expiry_ns, earlier", [](State* s) { s->expiry_ns -= 1; });
+  expect_told("expiry_ns, later", [](State* s) { s->expiry_ns = 9 * kSecond + 1; });
+  expect_told("expiry_ns, earlier", [](State* s) { s->expiry_ns = 9 * kSecond - 1; });
   // 1/2 M s² = 1 m, the errors 0.3 m; M s = 2 m/s, the errors 0.2 m/s; 1/2 α s² = 0.5, α s = 1.
   expect_told("position", [](State* s) { s->position_m = {1.301, 0, 0}; });
   expect_told("position, against the direction", [](State* s) { s->position_m = {-0.301, 0, 0}; });

@@ -169,7 +169,7 @@ TEST_F(EventsTest, WaitingForAServiceRunsNoCallback) {
 // An owner that bounces its agent: the jump goes out at the same clock, before time moves on.
 TEST_F(EventsTest, AStateSetByACallbackCountsFromTheAnnouncedStepOn) {
   World world = ConnectTo(network_);
-  Agent ball = world.AddAgent({.name = "ball"}, {});
+  Agent ball = world.AddAgent(Point(), {});
   world.Publish(0);
   ball.SetState({.stamp_ns = 50});
   world.OnEvent([&](const Event&) { ball.SetState({.stamp_ns = 50, .discontinuity = true}); });
@@ -226,7 +226,7 @@ TEST_F(EventsTest, ACallbackMayReplaceItself) {
 
 TEST_F(EventsTest, NoCallbackRunsAfterTheWorldHasEnded) {
   std::optional<World> world = std::move(world_);
-  Agent ball = world->AddAgent({.name = "ball"}, {});
+  Agent ball = world->AddAgent(Point(), {});
   int called = 0;
   world->OnEvent([&](const Event&) {
     ++called;

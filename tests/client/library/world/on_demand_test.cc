@@ -22,7 +22,8 @@ class OnDemandTest : public testing::Test {
   /// One agent, described, sent and admitted at 0; it drifts along x at 1 m/s, M = 0.
   void Start(WorldOptions options = {.lock_step = false, .lead = nanoseconds(0)}) {
     world_.emplace(ConnectTo(network_, options));
-    ball_.emplace(world_->AddAgent({.name = "ball", .radius_m = 1}, At(0)));
+    ball_.emplace(
+        world_->AddAgent({.name = "ball", .radius_m = 1, .acceleration_max_m_s2 = 0}, At(0)));
     world_->Publish(0);
     network_->written.clear();
   }
@@ -259,7 +260,7 @@ TEST_F(OnDemandTest, ADescriptionIsFollowedByAState) {
   Start();
   ServiceSays({.now_ns = 0, .wanted_ns = kNever, .acknowledged = 1});
   EXPECT_EQ(Fly(10, 20), Stamps{});
-  ball_->SetDescription({.name = "ball", .radius_m = 0.5});
+  ball_->SetDescription({.name = "ball", .radius_m = 0.5, .acceleration_max_m_s2 = 0});
   world_->Publish(20);
   EXPECT_EQ(TakeSent(), Stamps{20}) << "the one that was kept back";
   ServiceSays({.now_ns = 20, .wanted_ns = kNever, .acknowledged = 2});
@@ -271,7 +272,7 @@ TEST_F(OnDemandTest, SamplesAreSmallUnlessRequestedOtherwise) {
     network_->written.clear();
     World world = ConnectTo(network_, {.lock_step = false, .chunk_size = chunk_size});
     std::vector<Agent> agents;
-    for (int i = 0; i < 4; ++i) agents.push_back(world.AddAgent({.name = "a"}, At(0)));
+    for (int i = 0; i < 4; ++i) agents.push_back(world.AddAgent(Point("a"), At(0)));
     world.Publish(0);
     EXPECT_EQ(network_->States().size(), chunk_size == 0 ? 4u : 2u);
     EXPECT_EQ(world.traffic().states_sent, 4u);
@@ -284,7 +285,8 @@ TEST_F(OnDemandTest, ANewAgentInheritsNothing) {
   Start();
   ServiceSays({.now_ns = 0, .wanted_ns = kNever, .acknowledged = 1});
   ball_.reset();
-  ball_.emplace(world_->AddAgent({.name = "next", .radius_m = 1}, At(5)));
+  ball_.emplace(
+      world_->AddAgent({.name = "next", .radius_m = 1, .acceleration_max_m_s2 = 0}, At(5)));
   EXPECT_EQ(Fly(10, 20), (Stamps{10, 20}));
 }
 

@@ -35,7 +35,7 @@ class PromisesTest : public testing::Test {
 
   std::shared_ptr<FakeNetwork> network_ = std::make_shared<FakeNetwork>();
   World world_ = ConnectTo(network_);
-  Agent ball_ = world_.AddAgent({.name = "ball", .radius_m = 1}, {});
+  Agent ball_ = world_.AddAgent({.name = "ball", .radius_m = 1, .acceleration_max_m_s2 = 0}, {});
 };
 
 TEST_F(PromisesTest, EachLoweringIsToldOnceHoweverOftenItIsRepeated) {

@@ -20,7 +20,7 @@ TEST(RunAndClock, ARunByTheClockCountsTenthsOfASecond) {
   const auto before = static_cast<std::uint32_t>(Tenths());
   World world = World::Connect({.simulator = kSimulator}, std::make_unique<FakeTransport>(network));
   const auto after = static_cast<std::uint32_t>(Tenths());
-  const Agent ball = world.AddAgent({.name = "ball"}, {});
+  const Agent ball = world.AddAgent(Point(), {});
   world.Publish(0);
   EXPECT_GE(network->written[0].agent_description().run(), before);
   EXPECT_LE(network->written[0].agent_description().run(), after);
@@ -50,7 +50,7 @@ TEST(RunAndClock, NoStepIsTakenWhileAnotherProgramHasTheName) {
   EXPECT_NE(world.waits_for_name(), "");
   network->Grant(5);
   ASSERT_EQ(world.Join(0ns), 5);
-  const Agent ball = world.AddAgent({.name = "ball"}, {.stamp_ns = 5});
+  const Agent ball = world.AddAgent(Point(), {.stamp_ns = 5});
   EXPECT_EQ(world.AdvanceTo(5, 0ns), Advance::kTimeout);
   EXPECT_TRUE(network->States().empty());
   network->Report(kRun - 1, kIncarnation + 1, false);

@@ -102,10 +102,10 @@ TEST_F(StepsTest, WhoHasFinishedSaysSo) {
   EXPECT_THROW(world.AdvanceTo(1, nanoseconds(0)), std::invalid_argument);
 }
 
-TEST_F(StepsTest, AWorldWithoutAgentsLeavesTheWorldsTime) {
+TEST_F(StepsTest, AWorldThatLeavesNoAgentsLeavesTheWorldsTime) {
   for (const bool stays : {false, true}) {
     network_->written.clear();
-    std::optional<World> world = ConnectTo(network_);
+    std::optional<World> world = ConnectTo(network_, {.on_leave = OnLeave::kLeave});
     std::optional<Agent> ball = world->AddAgent(Ball(), At(0));
     world->AdvanceTo(0, nanoseconds(0));
     if (!stays) ball.reset();
@@ -115,6 +115,19 @@ TEST_F(StepsTest, AWorldWithoutAgentsLeavesTheWorldsTime) {
       EXPECT_EQ(network_->Clocks()[0].next_ns(), kNever);
     }
   }
+}
+
+TEST_F(StepsTest, AWorldTakesItsAgentsWithItBeforeItLeavesTime) {
+  std::optional<World> world = ConnectTo(network_);
+  const Agent first = world->AddAgent(Ball(), At(0)), second = world->AddAgent(Ball(), At(0));
+  world->AdvanceTo(0, nanoseconds(0));
+  network_->written.clear();
+  world.reset();
+  ASSERT_EQ(network_->written.size(), 3u);
+  EXPECT_EQ(network_->written[0].agent_removal().slot(), 0u);
+  EXPECT_EQ(network_->written[1].agent_removal().slot(), 1u);
+  EXPECT_EQ(network_->written[2].simulator_clock().next_ns(), kNever);
+  EXPECT_EQ(network_->flushed, 3u);
 }
 
 }  // namespace

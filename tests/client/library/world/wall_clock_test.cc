@@ -21,7 +21,8 @@ class WallClockTest : public testing::Test {
   explicit WallClockTest(bool lock_step = false)
       : world_(ConnectTo(network_,
                          {.lock_step = lock_step, .wall_clock = [this] { return now_ns_; }})),
-        agent_(world_.AddAgent({.name = "ball", .radius_m = 1}, {.stamp_ns = kStart})) {}
+        agent_(world_.AddAgent({.name = "ball", .radius_m = 1, .acceleration_max_m_s2 = 0},
+                               {.stamp_ns = kStart})) {}
 
   /// The service publishes its status as of `now_ns`, and it is heard.
   void Hear(std::int64_t now_ns, std::uint32_t epoch = 1) {

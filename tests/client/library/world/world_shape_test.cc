@@ -26,6 +26,7 @@ std::shared_ptr<const Shape> Strip(std::uint32_t triangles) {
 AgentDescription Ship(const std::string& name, std::shared_ptr<const Shape> shape) {
   return {.name = name,
           .radius_m = 100,
+          .acceleration_max_m_s2 = 0,
           .angular_acceleration_max_rad_s2 = 0.5,
           .shape = std::move(shape)};
 }
@@ -99,7 +100,8 @@ TEST_F(WorldShapeTest, ManyAgentsShareOneShapeAndTheLastRemovesIt) {
     // Made anew each time: content counts, not the object.
     ships.push_back(world_.AddAgent(Ship("ship", Strip(5)), {}));
   }
-  const Agent ball = world_.AddAgent({.name = "ball", .radius_m = 1}, {});
+  const Agent ball =
+      world_.AddAgent({.name = "ball", .radius_m = 1, .acceleration_max_m_s2 = 0}, {});
   EXPECT_EQ(Kinds(), "pdddd");
   EXPECT_EQ(network_->written.back().agent_description().shape_hash(), "");
   ships.pop_back();
@@ -136,6 +138,13 @@ TEST_F(WorldShapeTest, AChangeOfShapePublishesTheNewOneFirstAndRemovesTheOldOneL
   EXPECT_EQ(Kinds(), "pd");
 }
 
+TEST_F(WorldShapeTest, ARadiusThatIsLeftOutIsThatOfTheShape) {
+  AgentDescription description = Ship("ship", Strip(5));
+  description.radius_m.reset();
+  const Agent ship = world_.AddAgent(description, {});
+  EXPECT_EQ(network_->written.back().agent_description().radius_m(), description.shape->radius_m());
+}
+
 TEST_F(WorldShapeTest, ARefusedDescriptionWritesNothing) {
   AgentDescription small = Ship("ship", Strip(5));
   small.radius_m = 0.01;
@@ -162,15 +171,16 @@ TEST_F(WorldShapeTest, WhenTheNameIsFreeShapesAreRepeatedToo) {
   EXPECT_EQ(Kinds(), "prddssc");
 }
 
-// The end of a World leaves its agents to the service, and so their shapes.
-TEST_F(WorldShapeTest, TheEndOfAWorldRemovesNoShape) {
-  std::optional<Agent> ship;
-  {
-    World world = ConnectTo(network_);
-    ship = world.AddAgent(Ship("ship", Strip(5)), {});
+TEST_F(WorldShapeTest, TheEndOfAWorldRemovesTheShapesOfTheAgentsThatLeaveWithIt) {
+  for (const OnLeave on_leave : {OnLeave::kLeave, OnLeave::kRemove}) {
+    std::optional<Agent> ship;
+    {
+      World world = ConnectTo(network_, {.on_leave = on_leave});
+      ship = world.AddAgent(Ship("ship", Strip(5)), {});
+    }
+    ship.reset();
+    EXPECT_EQ(Kinds(), on_leave == OnLeave::kLeave ? "pd" : "pdrx");
   }
-  ship.reset();
-  EXPECT_EQ(Kinds(), "pd");
 }
 
 }  // namespace

@@ -231,6 +231,8 @@ struct Outcome {
   std::string out, err;
 };
 
+const MeshFileOptions kFrame{.unit_m = 1, .up = UpAxis::kZ};
+
 Outcome RunTool(const SphereTreeOptions& options) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
@@ -243,6 +245,7 @@ Outcome RunTool(const SphereTreeOptions& options) {
 
 TEST_F(SphereTreeTool, AWrongRequestIsOneLine) {
   SphereTreeOptions good;
+  good.frame = kFrame;
   good.mesh = File("ball.obj", BumpyObj(3, false));
   good.builder = "octree";
   const auto with = [&](const std::function<void(SphereTreeOptions*)>& change) {
@@ -269,6 +272,7 @@ TEST_F(SphereTreeTool, AWrongRequestIsOneLine) {
 //         cannot be written is reported.
 TEST_F(SphereTreeTool, OutputsAreFilesOfTheirOwn) {
   SphereTreeOptions good;
+  good.frame = kFrame;
   const std::string text = BumpyObj(2, false);
   good.mesh = File("ball.svg.obj", text);
   good.builder = "octree";
@@ -310,6 +314,7 @@ TEST_F(SphereTreeTool, OutputsAreFilesOfTheirOwn) {
 // enough.
 TEST_F(SphereTreeTool, TooLittleMemoryIsOneLine) {
   SphereTreeOptions options;
+  options.frame = kFrame;
   options.mesh = File("ball.obj", BumpyObj(60, false));
   options.builder = "octree";
   for (const rlim_t more : {1, 4, 16, 32}) {
@@ -331,6 +336,7 @@ TEST_F(SphereTreeTool, TooLittleMemoryIsOneLine) {
 // Goal:   standard output is one document, whatever else is requested.
 TEST_F(SphereTreeTool, StandardOutputHoldsOneDocument) {
   SphereTreeOptions options;
+  options.frame = kFrame;
   options.mesh = File("ball.obj", BumpyObj(3, false));
   options.builder = "octree";
   options.levels = 3;

@@ -65,7 +65,7 @@ TEST_F(StatusPageTest, ShowsSimulatorsAndCounters) {
       "serves  0000000000000001  -        0.1.0    2     -      1       12.345 s  -\n"
       "\n"
       "world        lab\n"
-      "clock        simulated\n"
+      "clock        lock-step\n"
       "now          12.345 s\n"
       "agents       1, 3 pairs tracked\n"
       "earliest     not before 13.000000 s  ball × 0000000000000006:4\n"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <initializer_list>
 #include <vector>
 
@@ -36,6 +37,30 @@ TEST(Options, AreTaken) {
   EXPECT_EQ(Parse({"--replay", "R", "--log-level", "off"}).options->replay_file, "R");
 }
 
+// Goal:   world and domain of the environment count where the command line has none, and a bad one
+//         is refused like a bad option.
+TEST(Options, TheEnvironmentTellsWorldAndDomain) {
+  setenv("COLLISION_WORLD", "lab", 1);
+  setenv("COLLISION_DOMAIN", "7", 1);
+  const OptionsResult said = Parse({});
+  const OptionsResult over = Parse({"--world", "hall", "--domain", "8"});
+  const OptionsResult replay = Parse({"--replay", "R"});
+  setenv("COLLISION_WORLD", "", 1);
+  setenv("COLLISION_DOMAIN", "231", 1);
+  const OptionsResult bad = Parse({});
+  unsetenv("COLLISION_WORLD");
+  unsetenv("COLLISION_DOMAIN");
+  ASSERT_TRUE(said.options && over.options && replay.options);
+  EXPECT_EQ(said.options->world, "lab");
+  EXPECT_EQ(said.options->domain, 7u);
+  EXPECT_EQ(over.options->world, "hall");
+  EXPECT_EQ(over.options->domain, 8u);
+  EXPECT_FALSE(replay.options->world) << "a recording has its own";
+  EXPECT_FALSE(bad.options);
+  EXPECT_EQ(bad.exit_code, kExitUsage);
+  EXPECT_NE(bad.error.find("COLLISION_DOMAIN"), std::string::npos) << bad.error;
+}
+
 // Goal:   whatever is wrong on the command line ends with code 2 and a line that says what.
 TEST(Options, WrongOnesAreUsageErrors) {
   const std::initializer_list<const char*> cases[] = {
@@ -47,6 +72,7 @@ TEST(Options, WrongOnesAreUsageErrors) {
       {"--domain", "231"},
       {"--domain", "-1"},
       {"--domain", "x"},
+      {"--world", "two words"},
       {"--log-level", "loud"},
       {"--log-level", "info\""},
       {"--check-config"},
