@@ -18,6 +18,7 @@ enum class NoticeKind {
 /// "no service", "wrong clock", ...
 const char* Name(NoticeKind kind);
 
+/// What the library tells when something stands in the simulator's way, and when it no longer does.
 struct Notice {
   NoticeKind kind = NoticeKind::kNoService;
   bool over = false;  ///< What was told before is the case no longer.

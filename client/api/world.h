@@ -63,8 +63,8 @@ class Transport;
 /// The connection of one simulator. Movable, not copyable.
 ///
 /// Threads: the members of a World and of its agents may be called from one thread at a time.
-/// Callbacks run on that thread, inside Poll() and AdvanceTo() only, so none runs after the
-/// destructor.
+/// Callbacks run on that thread, inside Poll() and AdvanceTo() only (OnNotice() also inside
+/// WaitForService() and Join()), so none runs after the destructor.
 ///
 /// A staged state is sent with the first clock that is not below its stamp, if the service needs it
 /// by then (WorldOptions::on_demand). In lock-step the loop is: compute the states at t, stage them

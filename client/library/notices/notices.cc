@@ -99,6 +99,8 @@ void Notices::Look(const Situation& situation, Time now) {
   if (fits && situation.service_heard && situation.other_program.empty() &&
       situation.ended.empty()) {
     LookAtGrant(situation, now);
+  } else {
+    waiting_ = {};
   }
 }
 

@@ -36,7 +36,8 @@ World::~World() {
 }
 
 bool World::WaitForService(std::chrono::nanoseconds timeout) {
-  return implementation_->WaitForService(timeout);
+  const auto alive = implementation_;  // A callback may end this World.
+  return alive->WaitForService(timeout);
 }
 
 Agent World::AddAgent(const AgentDescription& description, const State& state) {
@@ -72,7 +73,8 @@ Advance World::AdvanceTo(std::int64_t clock_ns, std::chrono::nanoseconds timeout
 }
 
 std::optional<std::int64_t> World::Join(std::chrono::nanoseconds timeout) {
-  return implementation_->Join(timeout);
+  const auto alive = implementation_;  // A callback may end this World.
+  return alive->Join(timeout);
 }
 
 void World::Finish() { implementation_->Finish(); }

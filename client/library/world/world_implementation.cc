@@ -82,7 +82,7 @@ bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
   const Deadline deadline = Until(timeout);
   while (!transport_->service_alive()) {
     const auto remaining = deadline.Remaining();
-    if (remaining.count() == 0) return false;
+    if (remaining.count() == 0 || closed_) return false;
     Gather(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
     TellNotices();
   }
@@ -183,7 +183,7 @@ std::optional<std::int64_t> World::Implementation::Join(std::chrono::nanoseconds
     ungranted_ = true;
     TellNotices();
     const auto remaining = deadline.Remaining();
-    if (remaining.count() == 0) return std::nullopt;
+    if (remaining.count() == 0 || closed_) return std::nullopt;
     Gather(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
   }
   ungranted_ = false;

@@ -283,7 +283,7 @@ TEST(Intake, RefusesClocksOfTheOtherKind) {
     EXPECT_EQ(rejection.topic(), v1::TOPIC_SIMULATOR_CLOCK);
     EXPECT_EQ(rejection.field(), "lock_step");
     EXPECT_LE(rejection.detail().size(), 256u);
-    EXPECT_NE(rejection.detail().find(simulated ? "simulated time" : "wall clock"),
+    EXPECT_NE(rejection.detail().find(simulated ? "runs in lock-step" : "runs in real time"),
               std::string::npos);
     clock.set_lock_step(simulated);
     daemon.Step({From(kAlpha, clock)});

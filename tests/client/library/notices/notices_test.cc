@@ -102,6 +102,15 @@ TEST_F(NoticesTest, AWaitForNobodyByNameTellsWhoIsFurthestBehind) {
   EXPECT_TRUE(Has(told[0].text, "furthest behind is bob, at 1.000 s")) << told[0].text;
 }
 
+TEST_F(NoticesTest, AWaitBeginsAnewWhenTheServiceIsBack) {
+  const Situation waits{.service_heard = true, .waits = true}, alone{.waits = true};
+  Look(waits, seconds(0));
+  Look(alone, seconds(2));
+  EXPECT_TRUE(Look(waits, seconds(4)).empty());
+  EXPECT_TRUE(Look(waits, milliseconds(6999)).empty());
+  EXPECT_EQ(Look(waits, seconds(7)).size(), 1u);
+}
+
 TEST_F(NoticesTest, TimeThatGoesOnIsNoWait) {
   Situation waits{.service_heard = true, .waits = true};
   for (int second = 0; second < 20; ++second) {
@@ -199,6 +208,25 @@ TEST_F(WorldNoticesTest, AHandlerHearsTheWrongClockInsideACallAndMayThrow) {
   ASSERT_EQ(told_.size(), 1u);
   EXPECT_EQ(told_[0].kind, NoticeKind::kWrongClock);
   EXPECT_NO_THROW(world_.Poll()) << "told once";
+}
+
+TEST_F(WorldNoticesTest, AHandlerMayEndTheWorldThatWaits) {
+  for (const bool joins : {false, true}) {
+    std::optional<World> world = ConnectTo(network_);
+    int told = 0;
+    world->OnNotice([&](const Notice&) {
+      ++told;
+      world.reset();
+    });
+    network_->on_wait = [](FakeNetwork* network) { network->later += seconds(1); };
+    if (joins) {
+      EXPECT_FALSE(world->Join(seconds(60)));
+    } else {
+      EXPECT_FALSE(world->WaitForService(seconds(60)));
+    }
+    EXPECT_EQ(told, 1);
+    EXPECT_FALSE(world);
+  }
 }
 
 TEST_F(WorldNoticesTest, AStepThatIsNotGrantedNamesWhoHoldsTime) {
