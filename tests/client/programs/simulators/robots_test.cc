@@ -142,14 +142,14 @@ class CrowdRun {
     const std::size_t robot = RobotOfAgent(agent), link = agent % options_.limits.links;
     const AgentDescription told = LinkDescription(options_, robot, link, shapes_[link]);
     detection::AgentDeclaration declaration;
-    declaration.limits.radius = told.radius_m;
-    declaration.limits.acceleration_max = told.acceleration_max_m_s2;
-    declaration.limits.angular_acceleration_max = told.angular_acceleration_max_rad_s2;
+    declaration.limits.radius = told.radius_m.value();
+    declaration.limits.acceleration_max = told.acceleration_max_m_s2.value();
+    declaration.limits.angular_acceleration_max = told.angular_acceleration_max_rad_s2.value();
     declaration.shape = core_shapes_[link];
     declaration.filter.assembly = static_cast<std::uint32_t>(robot + 1);
     declaration.filter.name = static_cast<std::uint32_t>(agent + 1);
     ASSERT_TRUE(detector_->Admit(IdOf(agent), declaration, StateOf(agent, Instant()), Instant()));
-    log_.Agent(told.name, told.radius_m, told.shape);
+    log_.Agent(told.name, told.radius_m.value(), told.shape);
     log_.Assembly(told.name, told.assembly);
   }
 
