@@ -13,8 +13,8 @@
 
 namespace collision::client {
 
-/// Whether states tell the acceleration that their curve has: always, never, or where this makes the
-/// bound smaller.
+/// Whether states tell the acceleration that their curve has: always, never, or where this makes
+/// the bound smaller.
 enum class KnownUse { kAuto, kTold, kUntold };
 
 struct PlayerOptions {

@@ -10,8 +10,8 @@
 
 namespace collision::client {
 
-/// The acceleration on one piece of a curve, which is linear in time: at the piece's begin and at its
-/// end, and what the roundings of the states at both ends may add to it.
+/// The acceleration on one piece of a curve, which is linear in time: at the piece's begin and at
+/// its end, and what the roundings of the states at both ends may add to it.
 struct PieceAcceleration {
   Vector3 first_m_s2{};
   Vector3 last_m_s2{};

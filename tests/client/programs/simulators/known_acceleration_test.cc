@@ -145,7 +145,7 @@ TEST(KnownAcceleration, OfAnOrbitIsGravity) {
   EXPECT_GT(ReachAfter(30, curve.AccelerationMax(), 0), 85 * with);
 }
 
-// Goal:   left open, the acceleration is told where it makes the bound smaller after the look-ahead.
+// Goal:   left open, the acceleration is told where it makes the bound smaller after a while.
 // Method: an orbit, and a random walk, whose acceleration is different at each row.
 TEST(KnownOf, TakesTheSmallerBound) {
   Random random(11);
