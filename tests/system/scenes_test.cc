@@ -52,11 +52,13 @@ TEST(Scenes, AMillionTrianglesSatisfyTheChecker) {
   ExpectSceneSucceeds(words);
 }
 
-/// A number of a report, as --json writes it; -1: it is not there.
+/// A number of a report, as --json writes it, those of 64 bits in quotes; -1: it is not there.
 double NumberIn(const std::string& json, const std::string& field) {
   const std::string key = "\"" + field + "\": ";
   const std::size_t at = json.find(key);
-  return at == std::string::npos ? -1 : std::stod(json.substr(at + key.size()));
+  if (at == std::string::npos) return -1;
+  const std::size_t value = at + key.size();
+  return std::stod(json.substr(json[value] == '"' ? value + 1 : value));
 }
 
 // Goal:   with the acceleration of gravity known, 30 s ahead the time clear is nearly all of the
