@@ -48,4 +48,14 @@ std::uint64_t ContactsUnannounced(const Evidence& evidence);
 /// of its agent ahead that no later change has caused.
 std::vector<double> ClearanceTightness(const Evidence& evidence);
 
+/// How a true contact was announced, by the first revision of the event that brackets its begin.
+struct Announcement {
+  double lead_s = 0;     ///< From the announcement to the true begin.
+  double tightness = 0;  ///< (begin.earliest - now) / (true begin - now).
+};
+
+/// Of every certain contact that was announced before it began, and that no later change has
+/// caused.
+std::vector<Announcement> Announcements(const Evidence& evidence);
+
 }  // namespace collision::checker

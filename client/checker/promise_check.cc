@@ -132,4 +132,27 @@ std::vector<double> ClearanceTightness(const Evidence& evidence) {
   return ratios;
 }
 
+std::vector<Announcement> Announcements(const Evidence& evidence) {
+  std::vector<Announcement> announcements;
+  for (const TrueContact& contact : evidence.contacts()) {
+    if (!contact.certain) continue;
+    for (const EventHistory* history : evidence.HistoriesOf(contact.a, contact.b)) {
+      const v1::TimeBracket& begin = history->last().begin();
+      const std::int64_t now_ns = history->announced.now_ns;
+      const long double lead = contact.begin_ns - now_ns;
+      if (!history->confirmed || !(lead > 0)) continue;
+      if (contact.begin_ns < begin.earliest_ns() - contact.begin_tolerance_ns ||
+          contact.begin_ns > begin.latest_ns() + contact.begin_tolerance_ns) {
+        continue;
+      }
+      if (evidence.Changed(contact, now_ns, contact.begin_ns)) continue;
+      const std::int64_t earliest_ns = history->revisions.front().begin().earliest_ns();
+      announcements.push_back(
+          {static_cast<double>(lead * 1e-9L), static_cast<double>((earliest_ns - now_ns) / lead)});
+      break;
+    }
+  }
+  return announcements;
+}
+
 }  // namespace collision::checker

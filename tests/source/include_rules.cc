@@ -102,6 +102,10 @@ const std::vector<Layer>& Layers() {
       {programs + "tools/sphere_tree/",
        {"idl/", api, library + "shape/core_mesh.h", programs + "shared/", programs + "tools/",
         core + "geometry/mesh/", core + "sphere_tree/", core + "shape/"}},
+      // Derives bounds from rows and states as the player does.
+      {programs + "tools/suggest_bounds/",
+       {"idl/", api, library, programs + "shared/", programs + "tools/",
+        programs + "simulators/motion/", programs + "simulators/player/"}},
       {programs + "tools/",
        {"idl/", api, library, checker, programs + "shared/", programs + "tools/"}},
       {programs + "shared/", {"idl/", api, library, programs + "shared/"}},

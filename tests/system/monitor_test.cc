@@ -31,6 +31,8 @@ TEST(Monitor, ShowsALiveWorld) {
   EXPECT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
   EXPECT_TRUE(world.MonitorComesToSay({"events", "--json"}, "EVENT_ENDED"));
   EXPECT_TRUE(world.MonitorComesToSay({"earliest", "--json"}, "earliest_ns"));
+  EXPECT_TRUE(
+      world.MonitorComesToSay({"suggest-bounds", "--live", "--seconds", "0.5"}, "left-sim/left "));
   for (const char* word : {"status", "agents", "events", "earliest"}) {
     const Outcome text = world.Monitor({word});
     EXPECT_EQ(text.status, 0) << word << text.err;
@@ -43,11 +45,14 @@ TEST(Monitor, SaysWhenThereIsNoService) {
   const Outcome outcome = world.Monitor({"status", "--timeout", "0.2"});
   EXPECT_EQ(outcome.status, 69);
   EXPECT_NE(outcome.err, "");
+  EXPECT_EQ(world.Monitor({"suggest-bounds", "--live", "--timeout", "0.2"}).status, 69);
 }
 
 TEST(Monitor, WrongWordsAreAUsageError) {
   EXPECT_EQ(RunToEnd({Program("collisionctl"), "no-such-word"}).status, 2);
   EXPECT_EQ(RunToEnd({Program("collisionctl"), "status", "--no-such-option"}).status, 2);
+  EXPECT_EQ(RunToEnd({Program("collisionctl"), "suggest-bounds"}).status, 2);
+  EXPECT_EQ(RunToEnd({Program("collisionctl"), "suggest-bounds", "no such file"}).status, 66);
 }
 
 }  // namespace

@@ -30,6 +30,10 @@ TEST(Recording, ReplayGivesTheSameEventLog) {
   for (const char* status : {"EVENT_POSSIBLE", "EVENT_CONFIRMED", "EVENT_ENDED"}) {
     EXPECT_NE(replay.out.find(status), std::string::npos) << status << "\n" << replay.out;
   }
+  const Outcome bounds = RunToEnd({Program("collisionctl"), "suggest-bounds", recording});
+  EXPECT_EQ(bounds.status, 0) << bounds.err;
+  EXPECT_TRUE(Contains(bounds.out, "left-sim/left ")) << bounds.out;
+  EXPECT_TRUE(Contains(bounds.out, "right-sim/right ")) << bounds.out;
 }
 
 TEST(Recording, WhatCannotBeReplayedIsOneClearLine) {

@@ -113,6 +113,16 @@ void FillShapes(const checker::Evidence& evidence, v1::RunReport* report) {
   *report->mutable_counters() = evidence.observations().status.counters();
 }
 
+void FillAnnouncements(const checker::Evidence& evidence, v1::RunReport* report) {
+  std::vector<double> leads, tightness;
+  for (const checker::Announcement& announcement : checker::Announcements(evidence)) {
+    leads.push_back(announcement.lead_s);
+    tightness.push_back(announcement.tightness);
+  }
+  *report->mutable_announcement_lead_s() = QuantilesOf(leads);
+  report->set_announcement_tightness_median(Quantile(tightness, 0.5));
+}
+
 // In each step, a stream at the simulators' rate sends complete chunks of 64 for all agents.
 void AddStream(const v1::SimulatorTraffic& traffic, std::uint64_t agents, v1::RunReport* report) {
   constexpr std::uint64_t kChunk = 64, kSampleBytes = 20, kStateBytes = 200;  // idl/PROTOCOL.md
@@ -176,6 +186,7 @@ v1::RunReport MakeReport(const std::string& scene, const checker::Evidence& evid
   const auto contacts = static_cast<double>(std::max<std::uint64_t>(1, report.contacts_true()));
   report.set_false_alarms_per_contact(static_cast<double>(report.events_dismissed()) / contacts);
   report.set_clearance_tightness_median(Quantile(checker::ClearanceTightness(evidence), 0.5));
+  FillAnnouncements(evidence, &report);
   report.set_latency_p50_s(Quantile(measured.latencies, 0.5));
   report.set_latency_p99_s(Quantile(measured.latencies, 0.99));
   *report.mutable_begin_width_s() = QuantilesOf(BeginWidthsAtConfirmation(evidence));

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "client/api/event_text.h"
@@ -132,6 +133,8 @@ void Runner::StartSimulator(const v1::SceneProcess& process) {
         std::string("--traffic"), Path(process.name() + ".traffic")}) {
     arguments.push_back(argument);
   }
+  std::istringstream more(options_.arguments);
+  for (std::string argument; more >> argument;) arguments.push_back(argument);
   if (options_.stream && !HasOption(arguments, "--stream")) arguments.push_back("--stream");
   if (options_.real_time) {
     arguments.insert(arguments.end(), {"--real-time", "--start-ns", std::to_string(start_ns_)});

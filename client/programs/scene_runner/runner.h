@@ -21,6 +21,7 @@ struct RunnerOptions {
   bool stream = false;  ///< Simulators send every state, not only those the service needs.
   std::optional<std::uint32_t> domain;  ///< Default: one that depends on this process.
   std::string config;        ///< Fields that override the scene's configuration, as protobuf text.
+  std::string arguments;     ///< Further ones of every simulator, separated by spaces.
   bool every_event = false;  ///< Print every event, however many.
   bool unjudged = false;     ///< Leave the checker out: it may take longer than the run.
   std::string json;          ///< File for the report; empty: none.

@@ -42,6 +42,8 @@ int main(int argc, char** argv) {
   app.add_option("--config", options.config,
                  "Fields that override the scene's service configuration, as protobuf text: "
                  "'time_budget_us: 100'");
+  app.add_option("--arguments", options.arguments,
+                 "Further options of every simulator: '--known-acceleration never'");
   app.add_flag("--every-event", options.every_event,
                "Print every possible, dismissed and withdrawn event");
   CLI::Option* json =

@@ -75,10 +75,13 @@ void RatioRows(std::string* text, const v1::RunReport& report, bool lock_step) {
   if (report.contacts_true() == 0) {
     Row(text, "  %-30s –", "false alarms per contact");
     Row(text, "  %-30s –", "clear time / true time, median");
+    Row(text, "  %-30s –", "contacts announced before");
   } else {
     Row(text, "  %-30s %.3g", "false alarms per contact", report.false_alarms_per_contact());
     Row(text, "  %-30s %.3f", "clear time / true time, median",
         report.clearance_tightness_median());
+    Row(text, "  %-30s p50 %.3g s, of which clear %.5f in the median", "contacts announced before",
+        report.announcement_lead_s().p50(), report.announcement_tightness_median());
   }
   if (report.latency_p99_s() > 0) {
     // In lock-step an update is judged when the others have told their part of the round.

@@ -21,6 +21,7 @@
 #include "client/programs/tools/collisionctl/status_page.h"
 #include "client/programs/tools/collisionctl/text_pages.h"
 #include "client/programs/tools/sphere_tree/command.h"
+#include "client/programs/tools/suggest_bounds/command.h"
 #include "idl/limits.h"
 
 namespace collision::client {
@@ -206,6 +207,7 @@ Examples:
   collisionctl events --follow          one line per revision as it comes, until Ctrl-C
   collisionctl evict NAME               remove a simulator with its agents
   collisionctl restart-time             lock-step: let time begin anew, for all simulators
+  collisionctl suggest-bounds run.rec   bounds that the agents of a recording keep; also CSV, --live
   collisionctl sphere-tree ship.obj     how well the spheres of a mesh fit it (needs no service)
   collisionctl --world lab events --follow --json | jq 'select(.status == "EVENT_CONFIRMED")'
 
@@ -250,6 +252,8 @@ int Main(int argc, char** argv) {
       app.add_subcommand("restart-time", "Lock-step: let the world's time begin anew");
   SphereTreeOptions tree;
   const CLI::App* sphere_tree = AddSphereTreeCommand(&app, &tree);
+  SuggestBoundsOptions bounds;
+  const CLI::App* suggest_bounds = AddSuggestBoundsCommand(&app, &bounds);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RequiredError& error) {
@@ -263,6 +267,10 @@ int Main(int argc, char** argv) {
   if (sphere_tree->parsed()) {
     if (options.json) tree.report = "json";
     return RunSphereTree(tree);
+  }
+  if (suggest_bounds->parsed()) {
+    const MonitorOptions& place = options.monitor;
+    return RunSuggestBounds(bounds, {place.world, place.domain, options.timeout_s}, options.json);
   }
   if (!std::isfinite(options.timeout_s)) {  // CLI::Range lets NaN pass.
     std::cerr << "collisionctl: --timeout: " << options.timeout_s << ", allowed: 0 to 1e6\n";

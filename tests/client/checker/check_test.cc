@@ -126,6 +126,17 @@ TEST_F(CheckTest, HonestRunIsSatisfied) {
   EXPECT_NEAR(tightness[0], 0.5, 1e-9);
 }
 
+// Goal:   a contact is announced as long before, and as tightly, as its first revision was.
+TEST_F(CheckTest, AnnouncementsAreMeasuredByTheFirstRevision) {
+  Add(4, 12 * kSecond, v1::EVENT_ENDED, {8.9995, 9.0005}, {10.999, 11.001});
+  const auto announcements = Announcements(Evidence(motions_, observations_, facts_));
+  ASSERT_EQ(announcements.size(), 1u);
+  EXPECT_NEAR(announcements[0].lead_s, 2, 1e-8);
+  EXPECT_NEAR(announcements[0].tightness, 0.95, 1e-8);
+  observations_.events[0].set_now_ns(9 * kSecond + 10);
+  EXPECT_EQ(Announcements(Evidence(motions_, observations_, facts_)).size(), 0u);
+}
+
 TEST_F(CheckTest, MissingEventIsNoticed) {
   observations_.events.clear();
   EXPECT_NE(Verdict().find("no event of the pair"), std::string::npos);

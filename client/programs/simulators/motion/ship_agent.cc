@@ -20,7 +20,7 @@ void ShipAgent::SetState(const RigidState& body, std::int64_t stamp_ns, bool dis
   state.position_error_m = kShipPositionError;
   state.velocity_error_m_s = kShipPositionError;
   state.rotation_error_rad = kShipRotationError;
-  state.thrust_direction = thrust.direction;
+  if (thrust.direction != Vector3{}) state.thrust_direction = thrust.direction;
   state.direction_until_ns = thrust.until_ns;
   state.discontinuity = discontinuity;
   if (agent_) {

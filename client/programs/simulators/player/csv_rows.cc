@@ -15,12 +15,13 @@ constexpr long double kTimeMax = 4e18L;
 struct Column {
   std::size_t index = 0;
   double scale = 1;  // to SI
+  std::string name = {};
 };
 
 struct Columns {
   std::size_t count = 0;
   std::size_t agent = 0;
-  std::size_t time = 0;
+  Column time;
   long double nanoseconds = 1e9L;  // per unit of the time column
   std::optional<Column> position[3];
   std::optional<Column> velocity[3];
@@ -119,7 +120,8 @@ class Reader {
     if (!time) Fail("no column time_s, time_ms or time_ns in the header");
     if (!agent) Fail("no column agent_id in the header");
     columns_.agent = *agent;
-    columns_.time = *time;
+    columns_.time.index = *time;
+    columns_.time.name = names[*time];
     if (!columns_.position[0]) Fail("no column x_m (or x_km, x_mm) in the header");
     if (!columns_.position[1]) Fail("no column y_m (or y_km, y_mm) in the header");
     CheckVelocities();
@@ -153,22 +155,21 @@ class Reader {
       const std::string letter(1, "xyz"[axis]);
       if (const auto scale = LengthScale(name, letter, "")) {
         once(columns_.position[axis].has_value());
-        columns_.position[axis] = {index, *scale};
+        columns_.position[axis] = {index, *scale, std::string(name)};
       }
       if (const auto scale = LengthScale(name, "v" + letter, "_s")) {
         once(columns_.velocity[axis].has_value());
-        columns_.velocity[axis] = {index, *scale};
+        columns_.velocity[axis] = {index, *scale, std::string(name)};
       }
     }
   }
 
   template <typename Number>
-  Number Finite(std::string_view field, const char* what) const {
+  Number Finite(std::string_view field, const std::string& column) const {
     Number value = 0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
-      Fail(std::string(what) + " \"" + std::string(field.substr(0, 40)) +
-           "\" is not a finite number");
+      Fail(column + " \"" + std::string(field.substr(0, 40)) + "\" is not a finite number");
     }
     return value;
   }
@@ -185,24 +186,23 @@ class Reader {
     CsvRow row;
     row.line = line_;
     const long double time =
-        Finite<long double>(fields[columns_.time], "time") * columns_.nanoseconds;
+        Finite<long double>(fields[columns_.time.index], columns_.time.name) * columns_.nanoseconds;
     if (!(std::fabs(time) < kTimeMax)) Fail("time is beyond a century from 0");
     row.time_ns = std::llround(time);
     for (int axis = 0; axis < 3; ++axis) {
-      row.position_m[axis] = Value(columns_.position[axis], fields, "position");
-      row.velocity_m_s[axis] = Value(columns_.velocity[axis], fields, "velocity");
+      row.position_m[axis] = Value(columns_.position[axis], fields);
+      row.velocity_m_s[axis] = Value(columns_.velocity[axis], fields);
     }
     auto& rows = result_.rows[agent];
     if (!rows.empty() && row.time_ns <= rows.back().time_ns) {
-      Fail("time " + fields[columns_.time] + " of agent " + agent +
+      Fail("time " + fields[columns_.time.index] + " of agent " + agent +
            " is not later than its row before");
     }
     rows.push_back(row);
   }
 
-  double Value(const std::optional<Column>& column, const std::vector<std::string>& fields,
-               const char* what) const {
-    return column ? Finite<double>(fields[column->index], what) * column->scale : 0;
+  double Value(const std::optional<Column>& column, const std::vector<std::string>& fields) const {
+    return column ? Finite<double>(fields[column->index], column->name) * column->scale : 0;
   }
 
   std::istream& text_;

@@ -6,15 +6,18 @@
 #include <stdexcept>
 
 #include "client/library/validation.h"
+#include "idl/limits.h"
 
 namespace collision::client {
 namespace {
 
-State StateAt(const PositionAndVelocity& at, std::int64_t stamp_ns, const PlayerOptions& options) {
+State StateAt(const PlayedAgent& agent, std::int64_t stamp_ns, const PlayerOptions& options) {
+  const PositionAndVelocity at = agent.trajectory.At(stamp_ns);
   State state;
   state.stamp_ns = stamp_ns;
   state.position_m = at.position_m;
   state.velocity_m_s = at.velocity_m_s;
+  if (agent.known) state.acceleration_m_s2 = agent.known->At(stamp_ns);
   state.position_error_m = options.position_error_m;
   return state;
 }
@@ -23,9 +26,14 @@ AgentDescription Description(const PlayedAgent& agent, const PlayerOptions& opti
   AgentDescription description;
   description.name = agent.name;
   description.radius_m = options.radius_m;
-  description.acceleration_max_m_s2 = options.acceleration_max_m_s2 >= 0
-                                          ? options.acceleration_max_m_s2
-                                          : agent.trajectory.AccelerationMax();
+  if (agent.known) {
+    description.acceleration_max_m_s2 = agent.known->deviation_max_m_s2();
+    description.jerk_max_m_s3 = agent.known->jerk_max_m_s3();
+  } else if (options.acceleration_max_m_s2 >= 0) {
+    description.acceleration_max_m_s2 = options.acceleration_max_m_s2;
+  } else {
+    description.acceleration_max_m_s2 = agent.trajectory.AccelerationMax();
+  }
   description.shape = options.shape;
   if (options.shape) description.angular_acceleration_max_rad_s2 = 0;
   return description;
@@ -38,7 +46,7 @@ class Part {
 
   // Sets the agent's next state; the first one adds it to the world.
   void Stage(std::int64_t stamp_ns, World* world, MotionLog* log) {
-    const State state = StateAt(agent_.trajectory.At(stamp_ns), stamp_ns, options_);
+    const State state = StateAt(agent_, stamp_ns, options_);
     if (handle_) {
       handle_->SetState(state);
       return;
@@ -75,13 +83,26 @@ class Part {
 
 }  // namespace
 
+std::optional<KnownAcceleration> KnownOf(const Trajectory& trajectory,
+                                         const PlayerOptions& options) {
+  if (options.known_acceleration == KnownUse::kUntold || options.acceleration_max_m_s2 >= 0) {
+    return std::nullopt;
+  }
+  KnownAcceleration known(trajectory);
+  if (options.known_acceleration == KnownUse::kTold) return known;
+  const double unknown = ReachAfter(options.look_ahead_s, trajectory.AccelerationMax(), 0);
+  const bool narrower =
+      ReachAfter(options.look_ahead_s, known.deviation_max_m_s2(), known.jerk_max_m_s3()) < unknown;
+  return narrower && known.jerk_max_m_s3() <= wire::kJerkMax ? std::optional(known) : std::nullopt;
+}
+
 void RequirePlayable(const PlayedAgent& agent, const PlayerOptions& options,
                      const std::string& file) {
   std::size_t line = 0;
   try {
     for (const CsvRow& row : agent.trajectory.rows()) {
       line = row.line;
-      Validate(StateAt({row.position_m, row.velocity_m_s}, row.time_ns, options));
+      Validate(StateAt(agent, row.time_ns, options));
     }
     line = agent.trajectory.rows().front().line;
     Validate(Description(agent, options));

@@ -2,18 +2,26 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "client/programs/shared/pace.h"
 #include "client/programs/simulators/motion/motion_log.h"
+#include "client/programs/simulators/player/known_acceleration.h"
 #include "client/programs/simulators/player/trajectory.h"
 
 namespace collision::client {
 
+/// Whether states tell the acceleration that their curve has: always, never, or where this makes
+/// the bound smaller.
+enum class KnownUse { kAuto, kTold, kUntold };
+
 struct PlayerOptions {
   double radius_m = 0;
-  double acceleration_max_m_s2 = -1;  ///< < 0: derived from each trajectory.
+  double acceleration_max_m_s2 = -1;  ///< >= 0: no state tells its acceleration; < 0: derived.
+  KnownUse known_acceleration = KnownUse::kAuto;
+  double look_ahead_s = 2;  ///< After so long the bounds of both ways are compared.
   double position_error_m = 0;
   double rate_hz = 0;  ///< States at this rate; 0: at the rows' times.
   /// Of every agent, which never turns: its axes are the world's. Null: a ball.
@@ -24,7 +32,13 @@ struct PlayerOptions {
 struct PlayedAgent {
   std::string name;
   Trajectory trajectory;
+  std::optional<KnownAcceleration> known = {};  ///< What its states tell; nullopt: nothing.
 };
+
+/// What the states of this trajectory tell. Where the options leave it open: what is known, if it
+/// makes the bound smaller after `look_ahead_s` than the greatest acceleration alone does.
+std::optional<KnownAcceleration> KnownOf(const Trajectory& trajectory,
+                                         const PlayerOptions& options);
 
 /// Throws CsvError, "file:line: cause", if the client library would refuse a state at a row, or the
 /// agent's declaration.

@@ -61,22 +61,27 @@ PositionAndVelocity Trajectory::At(std::int64_t stamp_ns) const {
   return Evaluate(pieces_[row - rows_.begin() - 1], stamp_ns);
 }
 
-double Trajectory::AccelerationMax() const {
+PieceAcceleration Trajectory::AccelerationOn(std::size_t i) const {
   constexpr double kUlp = std::numeric_limits<double>::epsilon();
+  const auto& c = pieces_[i].coefficients;
+  const double h = Seconds(pieces_[i].t0_ns, pieces_[i].t1_ns);
+  PieceAcceleration acceleration;
+  for (int axis = 0; axis < 3; ++axis) {
+    acceleration.first_m_s2[axis] = 2 * c[axis][2];
+    acceleration.last_m_s2[axis] = 2 * c[axis][2] + 6 * c[axis][3] * h;
+  }
+  const double length = std::max(Norm(rows_[i].position_m), Norm(rows_[i + 1].position_m));
+  const double speed = std::max(Norm(rows_[i].velocity_m_s), Norm(rows_[i + 1].velocity_m_s));
+  acceleration.rounding_m_s2 = kRoundings * kUlp * (length / (h * h) + speed / h);
+  return acceleration;
+}
+
+double Trajectory::AccelerationMax() const {
   double greatest = 0;
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    const auto& c = pieces_[i].coefficients;
-    const double h = Seconds(pieces_[i].t0_ns, pieces_[i].t1_ns);
-    Vector3 first{}, last{};
-    for (int axis = 0; axis < 3; ++axis) {
-      first[axis] = 2 * c[axis][2];
-      last[axis] = 2 * c[axis][2] + 6 * c[axis][3] * h;
-    }
-    const double length = std::max(Norm(rows_[i].position_m), Norm(rows_[i + 1].position_m));
-    const double speed = std::max(Norm(rows_[i].velocity_m_s), Norm(rows_[i + 1].velocity_m_s));
-    const double rounding = kRoundings * kUlp * (length / (h * h) + speed / h);
-    greatest =
-        std::max(greatest, std::max(Norm(first), Norm(last)) * (1 + kRelativeMargin) + rounding);
+    const PieceAcceleration on = AccelerationOn(i);
+    const double most = std::max(Norm(on.first_m_s2), Norm(on.last_m_s2));
+    greatest = std::max(greatest, most * (1 + kRelativeMargin) + on.rounding_m_s2);
   }
   return greatest;
 }

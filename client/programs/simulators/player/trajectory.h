@@ -1,6 +1,7 @@
 // The motion that a table of positions defines.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -8,6 +9,14 @@
 #include "client/programs/simulators/player/csv_rows.h"
 
 namespace collision::client {
+
+/// The acceleration on one piece of a curve, which is linear in time: at the piece's begin and at
+/// its end, and what the roundings of the states at both ends may add to it.
+struct PieceAcceleration {
+  Vector3 first_m_s2{};
+  Vector3 last_m_s2{};
+  double rounding_m_s2 = 0;
+};
 
 /// The cubic Hermite curve through rows of positions and velocities: positions and velocities are
 /// continuous, the acceleration is linear on each piece and largest at one of its ends.
@@ -29,6 +38,9 @@ class Trajectory {
 
   /// On the curve; `stamp_ns` in [begin_ns, end_ns]. At a row exactly that row.
   PositionAndVelocity At(std::int64_t stamp_ns) const;
+
+  /// On piece `i`.
+  PieceAcceleration AccelerationOn(std::size_t i) const;
 
   /// A bound that the curve and the states taken from it keep [m/s²].
   double AccelerationMax() const;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 
 #include "client/library/validation.h"
@@ -17,6 +18,10 @@ namespace collision::client {
 namespace {
 
 constexpr std::size_t kAgentsPrinted = 10;
+constexpr double kLookAheadMax = 86400;  // the service's greatest announce_within_s
+
+const std::map<std::string, KnownUse> kKnownUses = {
+    {"auto", KnownUse::kAuto}, {"always", KnownUse::kTold}, {"never", KnownUse::kUntold}};
 
 struct Options {
   SimulatorOptions simulator;
@@ -41,27 +46,65 @@ std::vector<PlayedAgent> Choose(const Options& options, const CsvRows& file,
     const auto rows = file.rows.find(id);
     if (rows == file.rows.end())
       throw CsvError(options.file + ": no agent \"" + id + "\" in the file");
-    agents.push_back({equals == std::string::npos ? id : choice.substr(equals + 1),
-                      Trajectory(rows->second, file.velocities, start_ns)});
+    PlayedAgent agent{equals == std::string::npos ? id : choice.substr(equals + 1),
+                      Trajectory(rows->second, file.velocities, start_ns)};
+    agent.known = KnownOf(agent.trajectory, options.player);
+    agents.push_back(std::move(agent));
   }
   return agents;
 }
 
+// "agent 9: 187 rows, acceleration at most 5.3 m/s2 (derived)"
+void PrintAgent(const PlayedAgent& agent, const PlayerOptions& options) {
+  const bool derived = options.acceleration_max_m_s2 < 0;
+  std::printf("agent %s: %zu rows, acceleration at most %.6g m/s2%s\n", agent.name.c_str(),
+              agent.trajectory.rows().size(),
+              derived ? agent.trajectory.AccelerationMax() : options.acceleration_max_m_s2,
+              derived ? " (derived)" : "");
+  if (!agent.known) return;
+  std::printf(
+      "  a from rows; deviation %.3g m/s2, jerk %.3g m/s3 (derived from the curve played)\n",
+      agent.known->deviation_max_m_s2(), agent.known->jerk_max_m_s3());
+}
+
+// Least, middle and greatest.
+std::string SpreadText(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  char text[96];
+  std::snprintf(text, sizeof text, "%.3g / %.3g / %.3g", values.front(), values[values.size() / 2],
+                values.back());
+  return text;
+}
+
+void PrintSummary(const Options& options, const std::vector<PlayedAgent>& agents) {
+  std::vector<double> greatest, deviations, jerks;
+  for (const PlayedAgent& agent : agents) {
+    greatest.push_back(agent.trajectory.AccelerationMax());
+    if (!agent.known) continue;
+    deviations.push_back(agent.known->deviation_max_m_s2());
+    jerks.push_back(agent.known->jerk_max_m_s3());
+  }
+  std::printf("%zu agents, acceleration %s m/s2 (least / median / greatest)\n", agents.size(),
+              options.player.acceleration_max_m_s2 < 0
+                  ? SpreadText(greatest).c_str()
+                  : std::to_string(options.player.acceleration_max_m_s2).c_str());
+  if (deviations.empty()) return;
+  std::printf("a from rows of %zu of them: deviation %s m/s2, jerk %s m/s3\n", deviations.size(),
+              SpreadText(deviations).c_str(), SpreadText(jerks).c_str());
+}
+
 void Print(const Options& options, const std::vector<PlayedAgent>& agents) {
   if (options.quiet) return;
-  const bool derived = options.player.acceleration_max_m_s2 < 0;
-  double greatest = 0;
-  for (std::size_t i = 0; i < agents.size(); ++i) {
-    const Trajectory& trajectory = agents[i].trajectory;
-    const double bound =
-        derived ? trajectory.AccelerationMax() : options.player.acceleration_max_m_s2;
-    greatest = std::max(greatest, bound);
-    if (i >= kAgentsPrinted) continue;
-    std::printf("agent %s: %zu rows, acceleration at most %.6g m/s2%s\n", agents[i].name.c_str(),
-                trajectory.rows().size(), bound, derived ? " (derived)" : "");
+  for (std::size_t i = 0; i < agents.size() && i < kAgentsPrinted; ++i) {
+    PrintAgent(agents[i], options.player);
   }
-  if (agents.size() > kAgentsPrinted) {
-    std::printf("... %zu agents in all, acceleration at most %.6g m/s2\n", agents.size(), greatest);
+  if (agents.size() > 1) PrintSummary(options, agents);
+  if (options.player.acceleration_max_m_s2 < 0 &&
+      options.player.known_acceleration == KnownUse::kAuto) {
+    const auto tells = [](const PlayedAgent& agent) { return agent.known.has_value(); };
+    std::printf("%td of %zu agents tell their acceleration: their bound is smaller after %g s so\n",
+                std::count_if(agents.begin(), agents.end(), tells), agents.size(),
+                options.player.look_ahead_s);
   }
   std::fflush(stdout);
 }
@@ -123,6 +166,42 @@ int Run(Options options) {
   return kExitOk;
 }
 
+// Returns --radius.
+const CLI::Option* AddPlayerOptions(CLI::App* app, Options* options) {
+  app->add_option("file", options->file, "CSV: time_s, agent_id, x_m, y_m [, z_m] [, vx_m_s, ...]")
+      ->required();
+  app->add_option("--agents", options->agents,
+                  "Agents to play, ID or ID=NAME, separated by commas; default: all")
+      ->delimiter(',');
+  options->player.radius_m = -1;
+  CLI::Option* radius =
+      app->add_option("--radius", options->player.radius_m,
+                      "Bounding radius of every agent [m]; default: that of --mesh")
+          ->check(Finite(kRadiusMax, true));
+  app->add_option("--acceleration-max", options->player.acceleration_max_m_s2,
+                  "Of every agent [m/s2]; default: derived from the data, per agent")
+      ->check(Finite(kAccelerationMax, true));
+  app->add_option("--known-acceleration", options->player.known_acceleration,
+                  "Whether states tell the acceleration that their curve has: auto (where this "
+                  "makes the bound smaller), always or never; never with --acceleration-max")
+      ->transform(CLI::CheckedTransformer(kKnownUses))
+      ->default_str("auto");
+  app->add_option("--look-ahead", options->player.look_ahead_s,
+                  "For auto: compare the bounds after so many seconds, such as announce_within_s")
+      ->check(Finite(kLookAheadMax, false))
+      ->capture_default_str();
+  app->add_option("--position-error", options->player.position_error_m, "Of every state [m]")
+      ->check(Finite(kRadiusMax, true));
+  app->add_option("--rate", options->player.rate_hz,
+                  "States per second on the curve; default: at the rows")
+      ->check(Finite(1e9, false));
+  app->add_option("--seconds", options->simulator.seconds,
+                  "Length of the run; default: to the last row")
+      ->check(Finite(kRunSecondsMax, false));
+  app->add_flag("--quiet", options->quiet, "Print nothing but what goes wrong");
+  return radius;
+}
+
 }  // namespace
 }  // namespace collision::client
 
@@ -131,32 +210,19 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Plays agents' positions from a CSV file into a world of the collision service.",
                "trajectory-player");
-  app.add_option("file", options.file, "CSV: time_s, agent_id, x_m, y_m [, z_m] [, vx_m_s, ...]")
-      ->required();
-  app.add_option("--agents", options.agents,
-                 "Agents to play, ID or ID=NAME, separated by commas; default: all")
-      ->delimiter(',');
-  options.player.radius_m = -1;
-  auto* radius = app.add_option("--radius", options.player.radius_m,
-                                "Bounding radius of every agent [m]; default: that of --mesh")
-                     ->check(Finite(kRadiusMax, true));
-  app.add_option("--acceleration-max", options.player.acceleration_max_m_s2,
-                 "Of every agent [m/s2]; default: derived from the data, per agent")
-      ->check(Finite(kAccelerationMax, true));
-  app.add_option("--position-error", options.player.position_error_m, "Of every state [m]")
-      ->check(Finite(kRadiusMax, true));
-  app.add_option("--rate", options.player.rate_hz,
-                 "States per second on the curve; default: at the rows")
-      ->check(Finite(1e9, false));
-  app.add_option("--seconds", options.simulator.seconds,
-                 "Length of the run; default: to the last row")
-      ->check(Finite(kRunSecondsMax, false));
-  app.add_flag("--quiet", options.quiet, "Print nothing but what goes wrong");
+  const CLI::Option* radius = AddPlayerOptions(&app, &options);
   AddMeshOptions(&app, &options.mesh);
   AddSimulatorOptions(&app, &options.simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   if (radius->empty() && options.mesh.file.empty()) {
     std::fprintf(stderr, "trajectory-player: --radius is required without --mesh\n");
+    return kExitUsage;
+  }
+  if (options.player.known_acceleration == KnownUse::kTold &&
+      options.player.acceleration_max_m_s2 >= 0) {
+    std::fprintf(stderr,
+                 "trajectory-player: --known-acceleration: always, allowed: auto or never beside "
+                 "--acceleration-max\n");
     return kExitUsage;
   }
   CatchStopSignals();

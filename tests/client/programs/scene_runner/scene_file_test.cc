@@ -35,7 +35,7 @@ TEST_F(SceneFileTest, ShippedScenesLoad) {
   folders_.scenes = COLLISION_SCENES_DIR;
   const std::string list = ListScenes(folders_);
   for (const std::string name :
-       {"iridium-cosmos", "swarm-100", "swarm-1000", "swarm", "corridor"}) {
+       {"iridium-cosmos", "low-orbit", "swarm-100", "swarm-1000", "swarm", "corridor"}) {
     EXPECT_NE(list.find(name + " "), std::string::npos);
     if (name == "corridor") continue;  // not offered without the data folder
     const v1::Scene scene = LoadScene(folders_, name);
@@ -67,11 +67,12 @@ TEST_F(SceneFileTest, AnUnknownSceneListsTheNames) {
     LoadScene(folders_, "iridium");
     ADD_FAILURE();
   } catch (const NoSuchScene& error) {
-    EXPECT_STREQ(error.what(),
-                 "no scene \"iridium\"; there are: corridor, drone-arms, iridium-cosmos, robots, "
-                 "spaceships, "
-                 "spaceships-100, spaceships-500, swarm, swarm-100, swarm-1000, terrain, "
-                 "terrain-million");
+    EXPECT_STREQ(
+        error.what(),
+        "no scene \"iridium\"; there are: corridor, drone-arms, iridium-cosmos, low-orbit, "
+        "robots, spaceships, spaceships-100, spaceships-500, swarm, swarm-100, swarm-1000, "
+        "terrain, "
+        "terrain-million");
   }
 }
 

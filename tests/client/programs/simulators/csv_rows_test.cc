@@ -112,11 +112,11 @@ TEST(CsvRows, BadRowsAreReportedWithTheirLine) {
   const std::string header = "time_s,agent_id,x_m,y_m\n0,a,0,0\n";
   EXPECT_EQ(ErrorOf(header + "1,a,0\n"), "file.csv:3: 3 columns, the header has 4");
   EXPECT_EQ(ErrorOf(header + "1,a,0,0,0\n"), "file.csv:3: 5 columns, the header has 4");
-  EXPECT_EQ(ErrorOf(header + "1,a,one,0\n"), "file.csv:3: position \"one\" is not a finite number");
-  EXPECT_EQ(ErrorOf(header + "1,a,1x,0\n"), "file.csv:3: position \"1x\" is not a finite number");
-  EXPECT_EQ(ErrorOf(header + "1,a,nan,0\n"), "file.csv:3: position \"nan\" is not a finite number");
-  EXPECT_EQ(ErrorOf(header + "1,a,inf,0\n"), "file.csv:3: position \"inf\" is not a finite number");
-  EXPECT_EQ(ErrorOf(header + "1,a,,0\n"), "file.csv:3: position \"\" is not a finite number");
+  EXPECT_EQ(ErrorOf(header + "1,a,one,0\n"), "file.csv:3: x_m \"one\" is not a finite number");
+  EXPECT_EQ(ErrorOf(header + "1,a,1x,0\n"), "file.csv:3: x_m \"1x\" is not a finite number");
+  EXPECT_EQ(ErrorOf(header + "1,a,nan,0\n"), "file.csv:3: x_m \"nan\" is not a finite number");
+  EXPECT_EQ(ErrorOf(header + "1,a,inf,0\n"), "file.csv:3: x_m \"inf\" is not a finite number");
+  EXPECT_EQ(ErrorOf(header + "1,a,,0\n"), "file.csv:3: x_m \"\" is not a finite number");
   EXPECT_EQ(ErrorOf(header + "1,,0,0\n"), "file.csv:3: agent_id is empty");
   EXPECT_EQ(ErrorOf(header + "1,a b,0,0\n"), "file.csv:3: agent_id has a space in it");
   EXPECT_EQ(ErrorOf(header + "1e300,a,0,0\n"), "file.csv:3: time is beyond a century from 0");

@@ -1,0 +1,133 @@
+#include "client/programs/tools/suggest_bounds/bounds_page.h"
+
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace collision::client {
+namespace {
+
+std::string Short(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+std::string Exactly(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      quoted += '\\';
+      quoted += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      char code[8];
+      std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
+      quoted += code;
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
+std::string NameIn(const SuggestedBounds& bounds) {
+  return bounds.simulator.empty() ? bounds.name : bounds.simulator + "/" + bounds.name;
+}
+
+std::string DeclaredText(const SuggestedBounds& bounds) {
+  if (!bounds.declared) return "-";
+  std::string text = Short(bounds.declared->acceleration_max_m_s2);
+  if (bounds.declared->jerk_max_m_s3 > 0) text += ", " + Short(bounds.declared->jerk_max_m_s3);
+  return text;
+}
+
+std::string Row(const std::string& name, const SuggestedBounds& bounds) {
+  const auto& angular = bounds.angular_acceleration_max_rad_s2;
+  char text[256];
+  std::snprintf(
+      text, sizeof text, "%-28s %8zu %10s %10s %10s  %-5s %10s %10s  %s\n", name.c_str(),
+      bounds.samples, RoundedUpText(bounds.acceleration_max_m_s2).c_str(),
+      RoundedUpText(bounds.deviation_max_m_s2).c_str(), RoundedUpText(bounds.jerk_max_m_s3).c_str(),
+      bounds.known_is_narrower ? "yes" : "no", RoundedUpText(bounds.speed_max_m_s).c_str(),
+      angular ? RoundedUpText(*angular).c_str() : "-", DeclaredText(bounds).c_str());
+  return text;
+}
+
+std::string BasisText(const SuggestedBounds& bounds, const BoundsRequest& request) {
+  if (bounds.is_proof) return "a proof for the curve through the rows, rounded up";
+  const std::string share = request.quantile >= 1 ? "all that was seen"
+                                                  : "what " + Short(100 * request.quantile) +
+                                                        " % of the pieces between two states need";
+  return "an estimate: " + share + ", and " + Short(100 * request.margin) + " % more";
+}
+
+std::string AgentJson(const SuggestedBounds& bounds) {
+  const auto& angular = bounds.angular_acceleration_max_rad_s2;
+  std::string json =
+      "{\"simulator\":" + Quoted(bounds.simulator) + ",\"agent\":" + Quoted(bounds.name) +
+      ",\"states\":" + std::to_string(bounds.samples) + ",\"basis\":\"" +
+      (bounds.is_proof ? "proof" : "estimate") +
+      "\",\"acceleration_max_m_s2\":" + Exactly(bounds.acceleration_max_m_s2) +
+      ",\"known\":{\"acceleration_max_m_s2\":" + Exactly(bounds.deviation_max_m_s2) +
+      ",\"jerk_max_m_s3\":" + Exactly(bounds.jerk_max_m_s3) +
+      ",\"narrower\":" + (bounds.known_is_narrower ? "true" : "false") +
+      "},\"speed_max_m_s\":" + Exactly(bounds.speed_max_m_s) +
+      ",\"angular_acceleration_max_rad_s2\":" + (angular ? Exactly(*angular) : "null");
+  if (!bounds.declared) return json + ",\"declared\":null}";
+  return json + ",\"declared\":{\"acceleration_max_m_s2\":" +
+         Exactly(bounds.declared->acceleration_max_m_s2) +
+         ",\"jerk_max_m_s3\":" + Exactly(bounds.declared->jerk_max_m_s3) + "}}";
+}
+
+}  // namespace
+
+std::string RoundedUpText(double value) {
+  if (!(value > 0)) return "0";
+  const double step = std::pow(10, std::floor(std::log10(value)) - 3);
+  double rounded = std::ceil(value / step) * step;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", rounded);
+  for (; std::strtod(text, nullptr) < value; rounded += step) {
+    std::snprintf(text, sizeof text, "%.4g", rounded + step);
+  }
+  return text;
+}
+
+std::string BoundsPage(const BoundsSource& source, const std::vector<SuggestedBounds>& all,
+                       const BoundsRequest& request) {
+  std::string page = source.name + " (" + source.kind + "): bounds of " +
+                     std::to_string(all.size()) + " agents, " + BasisText(all.front(), request) +
+                     "\n\n";
+  char head[256];
+  std::snprintf(head, sizeof head, "%-28s %8s %10s %10s %10s  %-5s %10s %10s  %s\n", "agent",
+                "states", "M m/s2", "D m/s2", "J m/s3", "known", "speed m/s", "rad/s2", "declared");
+  page += head;
+  for (const SuggestedBounds& bounds : all) page += Row(NameIn(bounds), bounds);
+  if (all.size() > 1) page += Row("all", GreatestOf(all, request.look_ahead_s));
+  return page +
+         "\nAn agent declares acceleration_max M; or, if its states tell their acceleration, D "
+         "and\n"
+         "jerk_max J. known: so the bound is smaller after " +
+         Short(request.look_ahead_s) +
+         " s. rad/s2: angular_acceleration_max of an agent that turns.\n";
+}
+
+std::string BoundsJson(const BoundsSource& source, const std::vector<SuggestedBounds>& all,
+                       const BoundsRequest& request) {
+  std::string json = "{\"source\":" + Quoted(source.name) + ",\"kind\":" + Quoted(source.kind) +
+                     ",\"quantile\":" + Exactly(request.quantile) +
+                     ",\"margin\":" + Exactly(all.front().is_proof ? 0 : request.margin) +
+                     ",\"look_ahead_s\":" + Exactly(request.look_ahead_s) + ",\"agents\":[";
+  const char* separator = "";
+  for (const SuggestedBounds& bounds : all)
+    json += std::exchange(separator, ",") + AgentJson(bounds);
+  return json + "],\"all\":" + AgentJson(GreatestOf(all, request.look_ahead_s)) + "}\n";
+}
+
+}  // namespace collision::client

@@ -1,0 +1,32 @@
+// Suggested bounds as a table for people and as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/programs/tools/suggest_bounds/bounds_estimate.h"
+
+namespace collision::client {
+
+/// What the bounds come from.
+struct BoundsSource {
+  std::string name;  ///< A file, or "world lab".
+  std::string kind;  ///< "csv", "recording" or "live".
+};
+
+/// Four digits, rounded up: what is declared must not be less than what was found.
+std::string RoundedUpText(double value);
+
+/// One line for each agent and, of several, one with the greatest of each bound.
+std::string BoundsPage(const BoundsSource& source, const std::vector<SuggestedBounds>& all,
+                       const BoundsRequest& request);
+
+/// One line: {"source", "kind", "quantile", "margin", "look_ahead_s", "agents": [{"simulator",
+/// "agent", "states", "basis": "proof" or "estimate", "acceleration_max_m_s2", "known": {
+/// "acceleration_max_m_s2", "jerk_max_m_s3", "narrower"}, "speed_max_m_s",
+/// "angular_acceleration_max_rad_s2": number or null, "declared": {...} or null}, ...], "all": the
+/// greatest of each}.
+std::string BoundsJson(const BoundsSource& source, const std::vector<SuggestedBounds>& all,
+                       const BoundsRequest& request);
+
+}  // namespace collision::client
