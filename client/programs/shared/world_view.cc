@@ -56,10 +56,7 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
     if (standbys_.size() >= kStandbysMax && !standbys_.contains(status.service_id())) return;
     standbys_[status.service_id()] = {status, now};
   };
-  // A report outlives its simulator: it names what has left before this monitor came.
-  callbacks.report = [this](const v1::SimulatorReport& report) {
-    KeepSimulatorName(report.simulator_id(), report.name());
-  };
+  callbacks.report = [this](const v1::SimulatorReport& report) { Handle(report); };
   callbacks.earliest = [this](const v1::EarliestIntersection& earliest) { earliest_ = earliest; };
   callbacks.event = [this](const v1::CollisionEvent& event) {
     KeepLabel(event.lower(), event.lower_label());
@@ -87,6 +84,15 @@ std::vector<v1::ServiceStatus> WorldView::Standbys() const {
     if (now - standby.heard <= kStandbySilence) standbys.push_back(standby.status);
   }
   return standbys;
+}
+
+std::vector<v1::SimulatorReport> WorldView::Refused() const {
+  std::vector<v1::SimulatorReport> refused;
+  for (const auto& [id, report] : refused_) {
+    // Another service judges for itself.
+    if (status_ && report.stamp().service_id() == status_->service_id()) refused.push_back(report);
+  }
+  return refused;
 }
 
 std::vector<AgentView> WorldView::Agents() const {
@@ -256,6 +262,18 @@ void WorldView::KeepLabel(const v1::AgentId& id, const v1::AgentLabel& label) {
   KeepSimulatorName(id.simulator_id(), label.simulator_name());
   names_.try_emplace(FromMessage(id), label.agent_name());
   if (names_.size() > kNamesMax) names_.erase(names_.begin());
+}
+
+/// A report outlives its simulator: it names what has left before this monitor came.
+void WorldView::Handle(const v1::SimulatorReport& report) {
+  KeepSimulatorName(report.simulator_id(), report.name());
+  const bool is_refused =
+      report.alive() && report.ended() == v1::RUN_GOES_ON && report.refusals_size() > 0;
+  if (!is_refused) {
+    refused_.erase(report.simulator_id());
+  } else if (refused_.size() < kSimulatorNamesMax) {
+    refused_.insert_or_assign(report.simulator_id(), report);
+  }
 }
 
 void WorldView::Handle(const v1::AgentDescription& description) {

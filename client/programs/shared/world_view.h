@@ -82,6 +82,9 @@ class WorldView {
   /// The newest status of each service that stands by and was heard within kStandbySilence.
   std::vector<v1::ServiceStatus> Standbys() const;
 
+  /// What the service in force has of each living simulator of which it refuses something now.
+  std::vector<v1::SimulatorReport> Refused() const;
+
   /// All described agents, and those that the service holds without a living writer, by simulator
   /// and slot.
   std::vector<AgentView> Agents() const;
@@ -113,6 +116,7 @@ class WorldView {
  private:
   using Key = std::pair<std::uint64_t, std::uint32_t>;  ///< Simulator, slot.
 
+  void Handle(const v1::SimulatorReport& report);
   void Handle(const v1::AgentDescription& description);
   void Handle(const v1::AgentRemoval& removal);
   void Handle(const v1::ShapePart& part);
@@ -135,7 +139,8 @@ class WorldView {
   };
 
   std::optional<v1::ServiceStatus> status_;
-  std::map<std::uint64_t, Standby> standbys_;  ///< By service.
+  std::map<std::uint64_t, Standby> standbys_;             ///< By service.
+  std::map<std::uint64_t, v1::SimulatorReport> refused_;  ///< By simulator.
   std::optional<v1::EarliestIntersection> earliest_;
   std::map<Key, v1::AgentDescription> descriptions_;
   std::map<std::uint64_t, std::uint32_t> newest_runs_;    ///< By simulator, of its descriptions.

@@ -18,7 +18,8 @@
 #include "client/programs/tools/collisionctl/json_pages.h"
 #include "client/programs/tools/collisionctl/operator_request.h"
 #include "client/programs/tools/collisionctl/service_notes.h"
-#include "client/programs/tools/collisionctl/status_page.h"
+#include "client/programs/tools/collisionctl/status/status_details.h"
+#include "client/programs/tools/collisionctl/status/status_page.h"
 #include "client/programs/tools/collisionctl/text_pages.h"
 #include "client/programs/tools/sphere_tree/command.h"
 #include "idl/limits.h"
@@ -40,6 +41,7 @@ struct Options {
   bool json = false;
   bool follow = false;
   bool watch = false;
+  bool all = false;
   double period_s = 1;
 };
 
@@ -143,7 +145,9 @@ void WatchAgents(MessageMonitor* monitor, const WorldView& view, const Options& 
 void Print(const std::string& command, const Options& options, WorldView* view) {
   if (command == "events") return PrintEvents(view->TakeNewestRevisions(), *view, options.json);
   if (command == "status") {
-    std::cout << (options.json ? StatusJson(*view) : StatusPage(*view));
+    std::cout << (options.json  ? StatusJson(*view)
+                  : options.all ? StatusDetails(*view)
+                                : StatusPage(*view));
   } else if (command == "agents") {
     std::cout << (options.json ? AgentsJson(*view) + "\n" : AgentsPage(*view));
   } else if (command == "shapes") {
@@ -197,7 +201,8 @@ int Run(const std::string& command, const Options& options) {
 
 constexpr const char* kExamples = R"(
 Examples:
-  collisionctl status                   health of the service, simulators, refusals
+  collisionctl status                   whether all is well; else what is wrong, and what to do
+  collisionctl status --all             every simulator, the broad phase and why, all counters
   collisionctl earliest                 the pair that can touch first, and the earliest time for it
   collisionctl agents                   every agent, and how long it is clear
   collisionctl agents --watch           likewise every second, with fresh states, until Ctrl-C
@@ -224,7 +229,8 @@ void AddViews(CLI::App* app, Options* options) {
   app->require_subcommand(1);
   app->fallthrough();
   app->footer(kExamples);
-  app->add_subcommand("status", "Service, clock, simulators, broad phase and why, refusals");
+  app->add_subcommand("status", "In 12 lines: what is wrong and what to do, service, simulators")
+      ->add_flag("--all", options->all, "All that the service tells, with every simulator");
   CLI::App* agents = app->add_subcommand("agents", "Table of all agents");
   CLI::Option* watch = agents->add_flag(
       "--watch", options->watch,

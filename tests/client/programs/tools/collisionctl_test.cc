@@ -5,7 +5,7 @@
 
 #include "client/api/types.h"
 #include "client/programs/tools/collisionctl/json_pages.h"
-#include "client/programs/tools/collisionctl/status_page.h"
+#include "client/programs/tools/collisionctl/status/status_page.h"
 #include "client/programs/tools/collisionctl/text_pages.h"
 #include "tests/client/fake_transport.h"
 #include "tests/client/programs/tools/collisionctl_fixture.h"
@@ -154,7 +154,7 @@ TEST_F(CollisionctlTest, NamesStayWhenAnotherRunComes) {
 TEST_F(CollisionctlTest, AWallClockReadsAsTheTimeOfDay) {
   Status()->set_now_ns(1'795'229'895'022'000'000);
   Poll(1);
-  EXPECT_NE(StatusPage(view_).find("now          02:58:15.022 UTC\n"), std::string::npos);
+  EXPECT_NE(StatusPage(view_).find(", now 02:58:15.022 UTC\n"), std::string::npos);
 }
 
 TEST_F(CollisionctlTest, EarliestPageNamesPairAndTime) {
