@@ -186,8 +186,9 @@ std::string TimeText(std::int64_t instant_ns, std::int64_t origin_ns, int decima
          WithFraction(seconds % 60, units % per_second, decimals);
 }
 
-std::string InstantText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals) {
-  std::string text = TimeText(instant_ns, origin_ns, decimals);
+std::string InstantText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals,
+                        Rounding rounding) {
+  std::string text = TimeText(instant_ns, origin_ns, decimals, rounding);
   if (instant_ns == kNever) return text;
   return text + (IsTimeOfDay(instant_ns, origin_ns) ? " UTC" : " s");
 }

@@ -228,6 +228,10 @@ std::string WorldView::Name(const AgentId& id) const {
 
 bool WorldView::IsNamed(const AgentId& id) const { return names_.contains(id); }
 
+std::string WorldView::FullName(const AgentId& id) const {
+  return IsNamed(id) ? Name(id) + " (" + SimulatorName(id.simulator) + ")" : Name(id);
+}
+
 std::vector<v1::CollisionEvent> WorldView::TakeEvents() {
   const auto order = [](const v1::CollisionEvent& event) {
     const v1::ServiceStamp& stamp = event.stamp();

@@ -104,6 +104,13 @@ class WorldView {
   std::string Name(const AgentId& id) const;
   bool IsNamed(const AgentId& id) const;
 
+  /// The name with that of its simulator, "ada (people)"; "simulator:slot" if it was never
+  /// described.
+  std::string FullName(const AgentId& id) const;
+
+  /// The simulator's name, also after it has left; its id in hexadecimal if it was never heard.
+  std::string SimulatorName(std::uint64_t id) const;
+
   /// The events since the last call, in the order in which the service published them.
   std::vector<v1::CollisionEvent> TakeEvents();
 
@@ -125,7 +132,6 @@ class WorldView {
   void ForgetFormerRuns(std::uint64_t simulator, std::uint32_t run);
   void KeepLabel(const v1::AgentId& id, const v1::AgentLabel& label);
   void KeepSimulatorName(std::uint64_t id, const std::string& name);
-  std::string SimulatorName(std::uint64_t id) const;
   AgentPresence PresenceOf(const v1::AgentDescription& description) const;
   AgentPresence SilentPresence(const std::string& simulator) const;
   const v1::SimulatorStatus* StatusOf(std::uint64_t simulator) const;

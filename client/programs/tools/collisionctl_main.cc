@@ -3,18 +3,18 @@
 #include <cmath>
 #include <csignal>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
-#include "client/api/event_text.h"
-#include "client/api/pending_names.h"
 #include "client/library/deadline.h"
-#include "client/library/network/conversion.h"
 #include "client/library/network/dds_transport.h"
 #include "client/library/notices/notices.h"
 #include "client/library/validation.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/agents_watcher.h"
+#include "client/programs/tools/collisionctl/events/event_printer.h"
 #include "client/programs/tools/collisionctl/json_pages.h"
 #include "client/programs/tools/collisionctl/operator_request.h"
 #include "client/programs/tools/collisionctl/service_notes.h"
@@ -42,6 +42,10 @@ struct Options {
   bool follow = false;
   bool watch = false;
   bool all = false;
+  bool explain = false;
+  std::vector<std::string> agents, statuses;
+  std::optional<double> within_s, since_s;
+  std::optional<std::size_t> top;
   double period_s = 1;
 };
 
@@ -65,65 +69,38 @@ bool WaitForService(MessageMonitor* monitor, const WorldView& view, const Deadli
   return view.status().has_value();
 }
 
-void PrintLine(const Event& event, const WorldView& view) {
-  std::cout << EventLine(
-                   event, [&view](const AgentId& id) { return view.Name(id); }, 0)
-            << '\n';
-}
-
-/// Prints these events.
-void PrintEvents(const std::vector<v1::CollisionEvent>& events, const WorldView& view, bool json) {
-  for (const v1::CollisionEvent& message : events) {
-    if (json) {
-      std::cout << Json(message) << '\n';
-    } else {
-      PrintLine(FromMessage(message), view);
-    }
-  }
-  std::cout.flush();
-}
-
-/// Likewise, but a line waits for the names of its agents; JSON has none.
-void PrintNewEvents(WorldView* view, PendingNames* pending, bool json) {
-  if (json) return PrintEvents(view->TakeEvents(), *view, json);
-  const auto now = std::chrono::steady_clock::now();
-  for (const v1::CollisionEvent& message : view->TakeEvents()) {
-    pending->Add(FromMessage(message), now);
-  }
-  const auto named = [view](const AgentId& id) { return view->IsNamed(id); };
-  for (const Event& event : pending->Take(named, now)) PrintLine(event, *view);
-  std::cout.flush();
-}
-
-/// Says among the events how many contacts were lost since it was said last.
-void PrintGap(std::uint64_t missed, std::uint64_t* told, bool json) {
-  if (missed > *told) {
-    const std::uint64_t more = missed - *told;
-    std::cout << (json ? MissedJson(more, missed) : MissedLine(more, missed)) << std::endl;
-  }
-  *told = missed;
-}
-
-void Follow(MessageMonitor* monitor, WorldView* view, bool json) {
-  PendingNames pending;
+void Follow(MessageMonitor* monitor, WorldView* view, EventPrinter* printer) {
   ServiceNotes notes;
-  std::uint64_t missed = 0;
   while (stopped == 0 && std::cout) {
-    PrintGap(monitor->contacts_missed(), &missed, json);
-    PrintNewEvents(view, &pending, json);
+    printer->PrintGap(monitor->contacts_missed());
+    printer->PrintNew(view);
     monitor->Poll(kFollowWait);
     const auto note = notes.Take(monitor->service_alive(), view->status());
     if (note) std::cerr << *note << '\n';
   }
   monitor->Poll(std::chrono::nanoseconds(0));  // What had arrived when it was told to stop.
-  PrintGap(monitor->contacts_missed(), &missed, json);
-  PrintNewEvents(view, &pending, json);
+  printer->PrintGap(monitor->contacts_missed());
+  printer->PrintNew(view);
   std::cerr << ContactsSummary(view->contacts(), monitor->contacts_missed()) << '\n';
 }
 
 std::chrono::nanoseconds Seconds(double seconds) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double>(seconds));
+}
+
+std::optional<std::int64_t> Nanoseconds(const std::optional<double>& seconds) {
+  if (!seconds) return std::nullopt;
+  return Seconds(*seconds).count();
+}
+
+EventFilter FilterOf(const Options& options) {
+  EventFilter filter{.agents = options.agents,
+                     .within_ns = Nanoseconds(options.within_s),
+                     .since_ns = Nanoseconds(options.since_s),
+                     .top = options.top};
+  for (const std::string& status : options.statuses) filter.statuses.push_back(*StatusOf(status));
+  return filter;
 }
 
 /// Prints the agents once a period, with states that are no older, until Ctrl-C.
@@ -143,7 +120,6 @@ void WatchAgents(MessageMonitor* monitor, const WorldView& view, const Options& 
 }
 
 void Print(const std::string& command, const Options& options, WorldView* view) {
-  if (command == "events") return PrintEvents(view->TakeNewestRevisions(), *view, options.json);
   if (command == "status") {
     std::cout << (options.json  ? StatusJson(*view)
                   : options.all ? StatusDetails(*view)
@@ -188,8 +164,10 @@ int Run(const std::string& command, const Options& options) {
   }
   if (options.watch) {
     WatchAgents(&monitor, view, options);
-  } else if (options.follow) {
-    Follow(&monitor, &view, options.json);
+  } else if (command == "events") {
+    EventPrinter printer({.json = options.json, .explain = options.explain}, FilterOf(options),
+                         &std::cout);
+    options.follow ? Follow(&monitor, &view, &printer) : printer.PrintCurrent(&view);
   } else {
     Print(command, options, &view);
   }
@@ -209,6 +187,9 @@ Examples:
   collisionctl shapes                   every shape: owner, triangles and solids, parts received
   collisionctl events                   the current revision of every event
   collisionctl events --follow          one line per revision as it comes, until Ctrl-C
+  collisionctl events --agent ada --status possible,confirmed --within 10 --explain
+                                        what ada can meet in the next 10 s, in sentences
+  collisionctl events --top 5           the five that are nearest in time
   collisionctl evict NAME               remove a simulator with its agents
   collisionctl restart-time             lock-step: let time begin anew, for all simulators
   collisionctl sphere-tree ship.obj     how well the spheres of a mesh fit it (needs no service)
@@ -218,6 +199,52 @@ Only evict and restart-time change anything in the world. The network is that of
 by CYCLONEDDS_URI; it is printed on standard error at the start, with world and domain. Exit codes:
 0 done, 1 refused or not answered within the timeout, 2 usage, 69 no service within the timeout or
 no DDS, 74 the output cannot be written.)";
+
+/// Words of a status, one or several, separated by commas.
+CLI::Validator StatusWord() {
+  const auto check = [](const std::string& text) {
+    if (StatusOf(text)) return std::string();
+    return "\"" + text + "\", allowed: possible, confirmed, dismissed, undecided, withdrawn, ended";
+  };
+  return CLI::Validator(check, "STATUS");
+}
+
+/// The name of an agent, alone or behind its simulator's.
+CLI::Validator AgentWord() {
+  const auto check = [](const std::string& text) {
+    if (!text.empty() && text.size() <= 2 * wire::kNameMax + 1) return std::string();
+    return "\"" + text + "\", allowed: AGENT or SIMULATOR:AGENT, 1 to 129 bytes";
+  };
+  return CLI::Validator(check, "NAME");
+}
+
+void AddEvents(CLI::App* app, Options* options) {
+  constexpr double kSecondsMax = 1e9;
+  CLI::App* events = app->add_subcommand("events", "The current events");
+  events->add_flag("--follow", options->follow, "Print every further revision as it arrives");
+  events->add_flag("--explain", options->explain, "One plain sentence for each event");
+  events
+      ->add_option("--agent", options->agents,
+                   "Only events of this agent, on either side: AGENT or SIMULATOR:AGENT")
+      ->check(AgentWord());
+  events
+      ->add_option("--status", options->statuses,
+                   "Only these: possible, confirmed, dismissed, undecided, withdrawn, ended")
+      ->delimiter(',')
+      ->check(StatusWord());
+  events
+      ->add_option("--within", options->within_s,
+                   "Only what begins at most so many seconds ahead of now, 0 to 1e9")
+      ->check(Finite(kSecondsMax, true));
+  events
+      ->add_option("--since", options->since_s,
+                   "Only revisions of the last so many seconds, 0 to 1e9")
+      ->check(Finite(kSecondsMax, true));
+  events
+      ->add_option("--top", options->top,
+                   "Only the so many that are nearest in time, 1 to 4096; the nearest first")
+      ->check(CLI::Range(std::size_t{1}, EventSelection::kRememberedMax));
+}
 
 /// The options, and the commands that show something.
 void AddViews(CLI::App* app, Options* options) {
@@ -241,8 +268,7 @@ void AddViews(CLI::App* app, Options* options) {
       ->capture_default_str();
   app->add_subcommand("shapes", "Table of all shapes that agents have");
   app->add_subcommand("earliest", "The earliest intersection that is possible now");
-  app->add_subcommand("events", "The current events")
-      ->add_flag("--follow", options->follow, "Print every further revision as it arrives");
+  AddEvents(app, options);
 }
 
 int Main(int argc, char** argv) {
