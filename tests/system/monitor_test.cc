@@ -29,7 +29,7 @@ TEST(Monitor, ShowsALiveWorld) {
   EXPECT_TRUE(world.MonitorComesToSay({"status", "--json"}, "right-sim"));
   EXPECT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));
   EXPECT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
-  EXPECT_TRUE(world.MonitorComesToSay({"events", "--json"}, "EVENT_ENDED"));
+  EXPECT_TRUE(world.MonitorComesToSay({"events", "--json"}, "\"status\":\"ended\""));
   EXPECT_TRUE(world.MonitorComesToSay({"earliest", "--json"}, "earliest_ns"));
   for (const char* word : {"status", "agents", "events", "earliest"}) {
     const Outcome text = world.Monitor({word});

@@ -97,19 +97,8 @@ std::vector<v1::SimulatorReport> WorldView::Refused() const {
 
 std::vector<AgentView> WorldView::Agents() const {
   std::vector<AgentView> agents;
-  for (const auto& entry : descriptions_) {
-    const auto& description = entry.second;
-    AgentView& agent = agents.emplace_back();
-    agent.description = description;
-    // A sample of an earlier run, or of an earlier agent in this slot, belongs to another agent.
-    const auto take = [&](const auto& samples, auto* to) {
-      const auto found = samples.find(entry.first);
-      if (found == samples.end() || found->second.first != description.run()) return;
-      if (found->second.second.generation() == description.generation()) *to = found->second.second;
-    };
-    take(states_, &agent.state);
-    take(clearances_, &agent.clearance);
-    agent.presence = PresenceOf(description);
+  for (const auto& [key, description] : descriptions_) {
+    agents.push_back(Described(key, description));
   }
   for (const auto& [key, clearance] : clearances_) {
     if (!IsHeldOnly(key.first, key.second, clearance.first)) continue;
@@ -120,6 +109,36 @@ std::vector<AgentView> WorldView::Agents() const {
            Key(b.description.simulator_id(), b.description.slot());
   });
   return agents;
+}
+
+std::optional<AgentView> WorldView::Agent(const AgentId& id) const {
+  const Key key{id.simulator, id.slot};
+  const auto described = descriptions_.find(key);
+  if (described != descriptions_.end() && described->second.run() == id.run) {
+    if (described->second.generation() != id.generation) return std::nullopt;
+    return Described(key, described->second);
+  }
+  const auto cleared = clearances_.find(key);
+  if (cleared == clearances_.end() || !IsHeldOnly(id.simulator, id.slot, id.run)) {
+    return std::nullopt;
+  }
+  if (cleared->second.second.generation() != id.generation) return std::nullopt;
+  return HeldOnly(id.simulator, id.run, cleared->second.second);
+}
+
+AgentView WorldView::Described(const Key& key, const v1::AgentDescription& description) const {
+  AgentView agent;
+  agent.description = description;
+  // A sample of an earlier run, or of an earlier agent in this slot, belongs to another agent.
+  const auto take = [&](const auto& samples, auto* to) {
+    const auto found = samples.find(key);
+    if (found == samples.end() || found->second.first != description.run()) return;
+    if (found->second.second.generation() == description.generation()) *to = found->second.second;
+  };
+  take(states_, &agent.state);
+  take(clearances_, &agent.clearance);
+  agent.presence = PresenceOf(description);
+  return agent;
 }
 
 std::vector<UnknownAgents> WorldView::Unknown() const {

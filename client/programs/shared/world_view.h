@@ -89,6 +89,9 @@ class WorldView {
   /// and slot.
   std::vector<AgentView> Agents() const;
 
+  /// The agent, if it is one of these.
+  std::optional<AgentView> Agent(const AgentId& id) const;
+
   /// How many more the service holds of each simulator that is not heard: a simulator that was
   /// granted nothing has no clearances, and so its agents have no identity.
   std::vector<UnknownAgents> Unknown() const;
@@ -136,6 +139,7 @@ class WorldView {
   AgentPresence SilentPresence(const std::string& simulator) const;
   const v1::SimulatorStatus* StatusOf(std::uint64_t simulator) const;
   bool IsHeldOnly(std::uint64_t simulator, std::uint32_t slot, std::uint32_t run) const;
+  AgentView Described(const Key& key, const v1::AgentDescription& description) const;
   AgentView HeldOnly(std::uint64_t simulator, std::uint32_t run,
                      const v1::AgentClearance& clearance) const;
 

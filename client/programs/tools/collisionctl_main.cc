@@ -15,12 +15,13 @@
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/agents_watcher.h"
 #include "client/programs/tools/collisionctl/events/event_printer.h"
-#include "client/programs/tools/collisionctl/json_pages.h"
+#include "client/programs/tools/collisionctl/json/status_json.h"
+#include "client/programs/tools/collisionctl/json/world_json.h"
 #include "client/programs/tools/collisionctl/operator_request.h"
+#include "client/programs/tools/collisionctl/pages/text_pages.h"
 #include "client/programs/tools/collisionctl/service_notes.h"
 #include "client/programs/tools/collisionctl/status/status_details.h"
 #include "client/programs/tools/collisionctl/status/status_page.h"
-#include "client/programs/tools/collisionctl/text_pages.h"
 #include "client/programs/tools/sphere_tree/command.h"
 #include "idl/limits.h"
 
@@ -121,7 +122,7 @@ void WatchAgents(MessageMonitor* monitor, const WorldView& view, const Options& 
 
 void Print(const std::string& command, const Options& options, WorldView* view) {
   if (command == "status") {
-    std::cout << (options.json  ? StatusJson(*view)
+    std::cout << (options.json  ? StatusJson(*view) + "\n"
                   : options.all ? StatusDetails(*view)
                                 : StatusPage(*view));
   } else if (command == "agents") {
@@ -193,7 +194,7 @@ Examples:
   collisionctl evict NAME               remove a simulator with its agents
   collisionctl restart-time             lock-step: let time begin anew, for all simulators
   collisionctl sphere-tree ship.obj     how well the spheres of a mesh fit it (needs no service)
-  collisionctl --world lab events --follow --json | jq 'select(.status == "EVENT_CONFIRMED")'
+  collisionctl --world lab events --follow --json | jq 'select(.status == "confirmed")'
 
 Only evict and restart-time change anything in the world. The network is that of Cyclone DDS, set
 by CYCLONEDDS_URI; it is printed on standard error at the start, with world and domain. Exit codes:

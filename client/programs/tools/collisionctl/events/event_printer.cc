@@ -2,8 +2,8 @@
 
 #include "client/api/event_text.h"
 #include "client/library/network/conversion.h"
-#include "client/programs/tools/collisionctl/json_pages.h"
-#include "client/programs/tools/collisionctl/text_pages.h"
+#include "client/programs/tools/collisionctl/json/event_json.h"
+#include "client/programs/tools/collisionctl/pages/text_pages.h"
 
 namespace collision::client {
 
@@ -24,7 +24,7 @@ void EventPrinter::PrintNew(WorldView* view) {
 void EventPrinter::PrintGap(std::uint64_t missed) {
   if (missed > missed_) {
     const std::uint64_t more = missed - missed_;
-    out_ << (format_.json ? MissedJson(more, missed) : MissedLine(more, missed)) << std::endl;
+    out_ << (format_.json ? GapJson(more, missed) : MissedLine(more, missed)) << std::endl;
   }
   missed_ = missed;
 }
@@ -36,7 +36,7 @@ void EventPrinter::Print(const v1::CollisionEvent& message, const WorldView& vie
   const std::string sentence =
       format_.explain ? EventSentence(event, full_name, NowOf(message, view), 0) : "";
   if (format_.json) {
-    out_ << Json(message) << '\n';
+    out_ << EventJson(message, view, sentence) << '\n';
   } else {
     out_ << (format_.explain ? sentence : EventLine(event, name, 0)) << '\n';
   }

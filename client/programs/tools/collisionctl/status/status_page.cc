@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "client/programs/tools/collisionctl/pages/text_pages.h"
 #include "client/programs/tools/collisionctl/status/status_fields.h"
 #include "client/programs/tools/collisionctl/status/verdict.h"
-#include "client/programs/tools/collisionctl/text_pages.h"
 #include "idl/identity.h"
 #include "idl/limits.h"
 

@@ -7,7 +7,7 @@
 
 #include <sstream>
 
-#include "client/programs/tools/collisionctl/text_pages.h"
+#include "client/programs/tools/collisionctl/pages/text_pages.h"
 #include "tests/client/fake_transport.h"
 #include "tests/client/programs/tools/collisionctl_fixture.h"
 
