@@ -30,6 +30,9 @@ std::string InstantText(std::int64_t instant_ns, std::int64_t origin_ns, int dec
 /// The text, padded with spaces to a number of characters (not bytes: names may be UTF-8).
 std::string Padded(std::string text, std::size_t columns);
 
+/// Metres, or any other value, with three digits that are not above (down) or below (up) it.
+std::string MetresText(double value, Rounding rounding);
+
 /// The event in one line without a newline, with columns at the same places in every line:
 ///   599.734 s  confirmed  iridium-33 × cosmos-2251  #1 r3  begin [599.734236, 599.734370]  end
 ///   open  gap ≤ -0.12 m

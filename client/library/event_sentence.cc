@@ -76,7 +76,11 @@ class Writer {
     if (event_.began_before) return "could be touching" + From();
     if (earliest_ns == kNever) return "could touch at a time that is not known";
     if (IsAhead(earliest_ns)) return "could touch, but not before " + Earliest(earliest_ns);
-    return "could be touching since " + Earliest(earliest_ns) + ", which is not certain";
+    // A forecast is told anew only when it says something new: as far ahead as it was it still is.
+    const std::string told = ", as last told at " + Earliest(event_.now_ns);
+    if (earliest_ns <= event_.now_ns) return "could be touching" + told;
+    return "could touch about " + SecondsText(earliest_ns, event_.now_ns, kInstantDecimals) +
+           " s ahead" + told;
   }
 
   std::string Begin() const {

@@ -9,17 +9,6 @@ namespace {
 
 constexpr std::size_t kPairColumns = 28;
 
-/// Three digits that are not below (up) or not above (down) the value.
-std::string MetresText(double value, Rounding rounding) {
-  if (value != 0 && std::isfinite(value)) {
-    const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
-    value = (rounding == Rounding::kUp ? std::ceil(value / unit) : std::floor(value / unit)) * unit;
-  }
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value + 0.0);  // -0 becomes 0.
-  return text;
-}
-
 constexpr std::int64_t kSecond = 1'000'000'000;  // [ns]
 // Later instants belong to a wall clock: this is 1973, or three years of simulation.
 constexpr std::int64_t kWallClock = 100'000'000 * kSecond;
@@ -147,6 +136,16 @@ std::string GapText(const Event& event) {
 }
 
 }  // namespace
+
+std::string MetresText(double value, Rounding rounding) {
+  if (value != 0 && std::isfinite(value)) {
+    const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
+    value = (rounding == Rounding::kUp ? std::ceil(value / unit) : std::floor(value / unit)) * unit;
+  }
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value + 0.0);  // -0 becomes 0.
+  return text;
+}
 
 std::string Padded(std::string text, std::size_t columns) {
   const auto width = static_cast<std::size_t>(

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <vector>
 
 #include "client/library/deadline.h"
@@ -22,6 +23,7 @@
 #include "client/programs/tools/collisionctl/service_notes.h"
 #include "client/programs/tools/collisionctl/status/status_details.h"
 #include "client/programs/tools/collisionctl/status/status_page.h"
+#include "client/programs/tools/collisionctl/top/top.h"
 #include "client/programs/tools/sphere_tree/command.h"
 #include "idl/limits.h"
 
@@ -32,7 +34,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kQuiet{150};       // Nothing new for this long: the picture is complete.
 constexpr milliseconds kFollowWait{250};  // Longest time to notice Ctrl-C.
-constexpr int kPollsMax = 8;  // Then the picture counts as complete in a world that is never quiet.
+constexpr milliseconds kBusy{1000};       // A world that is never quiet: likewise.
 
 volatile std::sig_atomic_t stopped = 0;
 
@@ -43,6 +45,7 @@ struct Options {
   bool follow = false;
   bool watch = false;
   bool all = false;
+  TopOptions top_view;
   bool explain = false;
   std::vector<std::string> agents, statuses;
   std::optional<double> within_s, since_s;
@@ -53,12 +56,13 @@ struct Options {
 /// Gathers the values that late readers receive, until `enough` and quiet, or until the deadline.
 template <typename Enough>
 void Gather(MessageMonitor* monitor, const Deadline& deadline, Enough enough) {
-  for (int polls = 0; polls < kPollsMax && stopped == 0 && deadline.Remaining().count() > 0;) {
+  std::optional<Deadline> busy;
+  while (stopped == 0 && deadline.Remaining().count() > 0) {
     const auto wait = std::min<std::chrono::nanoseconds>(kQuiet, deadline.Remaining());
     const bool quiet = monitor->Poll(wait) == 0;
     if (!enough()) continue;
-    if (quiet) return;
-    ++polls;
+    if (!busy) busy.emplace(kBusy);
+    if (quiet || busy->Remaining().count() == 0) return;
   }
 }
 
@@ -165,6 +169,11 @@ int Run(const std::string& command, const Options& options) {
   }
   if (options.watch) {
     WatchAgents(&monitor, view, options);
+  } else if (command == "top") {
+    TopOptions top = options.top_view;
+    top.period = Seconds(options.period_s);
+    top.json = options.json;
+    RunTop(top, &monitor, &view, [] { return stopped != 0; });
   } else if (command == "events") {
     EventPrinter printer({.json = options.json, .explain = options.explain}, FilterOf(options),
                          &std::cout);
@@ -191,6 +200,7 @@ Examples:
   collisionctl events --agent ada --status possible,confirmed --within 10 --explain
                                         what ada can meet in the next 10 s, in sentences
   collisionctl events --top 5           the five that are nearest in time
+  collisionctl top                      a live table of the nearest pairs
   collisionctl evict NAME               remove a simulator with its agents
   collisionctl restart-time             lock-step: let time begin anew, for all simulators
   collisionctl sphere-tree ship.obj     how well the spheres of a mesh fit it (needs no service)
@@ -247,6 +257,20 @@ void AddEvents(CLI::App* app, Options* options) {
       ->check(CLI::Range(std::size_t{1}, EventSelection::kRememberedMax));
 }
 
+void AddTop(CLI::App* app, Options* options) {
+  constexpr double kPeriodMin = 0.1, kPeriodMax = 3600;
+  constexpr std::size_t kRowsMax = 1000;
+  CLI::App* top = app->add_subcommand(
+      "top", "The pairs that are nearest in time, drawn anew every period until Ctrl-C or q");
+  top->add_option("--rows", options->top_view.rows, "Pairs to show at most, 1 to 1000")
+      ->check(CLI::Range(std::size_t{1}, kRowsMax))
+      ->capture_default_str();
+  top->add_option("--period", options->period_s, "Seconds between two pictures, 0.1 to 3600")
+      ->check(CLI::Range(kPeriodMin, kPeriodMax))
+      ->capture_default_str();
+  top->add_flag("--once", options->top_view.once, "Print it once");
+}
+
 /// The options, and the commands that show something.
 void AddViews(CLI::App* app, Options* options) {
   AddWorldOptions(app, "World to look at", &options->monitor.world, &options->monitor.domain);
@@ -270,6 +294,7 @@ void AddViews(CLI::App* app, Options* options) {
   app->add_subcommand("shapes", "Table of all shapes that agents have");
   app->add_subcommand("earliest", "The earliest intersection that is possible now");
   AddEvents(app, options);
+  AddTop(app, options);
 }
 
 int Main(int argc, char** argv) {
@@ -297,8 +322,12 @@ int Main(int argc, char** argv) {
     if (options.json) tree.report = "json";
     return RunSphereTree(tree);
   }
-  if (!std::isfinite(options.timeout_s)) {  // CLI::Range lets NaN pass.
-    std::cerr << "collisionctl: --timeout: " << options.timeout_s << ", allowed: 0 to 1e6\n";
+  // CLI::Range lets NaN pass.
+  for (const auto& [option, value, allowed] :
+       {std::tuple("--timeout", options.timeout_s, "0 to 1e6"),
+        {"--period", options.period_s, "a number of seconds"}}) {
+    if (std::isfinite(value)) continue;
+    std::cerr << "collisionctl: " << option << ": " << value << ", allowed: " << allowed << '\n';
     return kExitUsage;
   }
   try {

@@ -85,7 +85,11 @@ TEST(EventSentence, OfAContactThatBeganBeforeTheyWereKnown) {
 TEST(EventSentence, OfAPossibleContact) {
   Event event = Forecast(EventStatus::kPossible);
   Expect(event, kSecond, "could touch, but not before 4.19 s.");
-  Expect(event, 5 * kSecond, "could be touching since 4.19 s, which is not certain.");
+  // It would have been told if that had changed.
+  event.now_ns = 3'742'000'000;
+  Expect(event, 5 * kSecond, "could touch about 0.45 s ahead, as last told at 3.74 s.");
+  event.now_ns = 4'200'000'000;
+  Expect(event, 5 * kSecond, "could be touching, as last told at 4.20 s.");
   event.began_before = true;
   Expect(event, 5 * kSecond, "could be touching, perhaps since before one of them was known.");
   event.began_before = false;

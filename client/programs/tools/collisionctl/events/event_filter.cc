@@ -15,13 +15,6 @@ std::int64_t Difference(std::int64_t a, std::int64_t b) {
   return a > b ? kNever : std::numeric_limits<std::int64_t>::min();
 }
 
-/// Published before the world's time began anew.
-bool IsOfEarlierEpoch(const v1::CollisionEvent& event, const WorldView& view) {
-  if (!view.status()) return false;
-  const v1::ServiceStamp& now = view.status()->stamp();
-  return event.stamp().service_id() == now.service_id() && event.stamp().epoch() < now.epoch();
-}
-
 bool IsCalled(const AgentId& id, const std::string& name, const WorldView& view) {
   const std::string agent = view.Name(id);
   return name == agent || name == view.SimulatorName(id.simulator) + ":" + agent;
@@ -38,11 +31,24 @@ std::optional<EventStatus> StatusOf(const std::string& name) {
   return std::nullopt;
 }
 
+std::int64_t LeadTime(const v1::CollisionEvent& event, std::int64_t now_ns) {
+  const std::int64_t begin_ns = event.begin().earliest_ns();
+  if (event.began_before()) return 0;
+  if (begin_ns == kNever) return kNever;
+  if (begin_ns > now_ns) return Difference(begin_ns, now_ns);
+  if (event.status() != v1::EVENT_POSSIBLE) return 0;
+  return std::max<std::int64_t>(0, Difference(begin_ns, event.now_ns()));
+}
+
 std::int64_t DistanceInTime(const v1::CollisionEvent& event, std::int64_t now_ns) {
-  const std::int64_t begin_ns = event.begin().earliest_ns(), end_ns = event.end().latest_ns();
-  if (begin_ns == kNever && !event.began_before()) return kNever;
-  if (!event.began_before() && begin_ns > now_ns) return Difference(begin_ns, now_ns);
-  return end_ns < now_ns ? Difference(now_ns, end_ns) : 0;
+  const std::int64_t end_ns = event.end().latest_ns();
+  return end_ns < now_ns ? Difference(now_ns, end_ns) : LeadTime(event, now_ns);
+}
+
+bool IsOfEarlierEpoch(const v1::CollisionEvent& event, const WorldView& view) {
+  if (!view.status()) return false;
+  const v1::ServiceStamp& now = view.status()->stamp();
+  return event.stamp().service_id() == now.service_id() && event.stamp().epoch() < now.epoch();
 }
 
 std::int64_t NowOf(const v1::CollisionEvent& event, const WorldView& view) {
@@ -104,9 +110,7 @@ bool EventSelection::FitsInTime(const v1::CollisionEvent& event, const WorldView
   if (IsOfEarlierEpoch(event, view)) return false;
   const std::int64_t now_ns = NowOf(event, view);
   if (filter_.since_ns && Difference(now_ns, event.now_ns()) > *filter_.since_ns) return false;
-  if (!filter_.within_ns || event.began_before()) return true;
-  const std::int64_t begin_ns = event.begin().earliest_ns();
-  return begin_ns != kNever && Difference(begin_ns, now_ns) <= *filter_.within_ns;
+  return !filter_.within_ns || LeadTime(event, now_ns) <= *filter_.within_ns;
 }
 
 bool EventSelection::IsOfAgents(const v1::CollisionEvent& event, const WorldView& view) const {

@@ -26,12 +26,19 @@ struct EventFilter {
 /// The status of this name, as Name(EventStatus) has it; nullopt: there is none.
 std::optional<EventStatus> StatusOf(const std::string& name);
 
+/// Published before the world's time began anew: its times are not those of now.
+bool IsOfEarlierEpoch(const v1::CollisionEvent& event, const WorldView& view);
+
 /// The world's time, as far as it is known when this event is looked at; for an event of an earlier
-/// epoch, whose times are not those of now, that of its publication.
+/// epoch that of its publication.
 std::int64_t NowOf(const v1::CollisionEvent& event, const WorldView& view);
 
-/// How far from `now_ns` the pair touches, may touch or did [ns]: 0 from the earliest begin to the
-/// latest end, kNever if the begin is not known.
+/// How far ahead of `now_ns` the event begins at the earliest [ns], 0 if that has come, kNever if
+/// it is not known. A forecast is told anew only when it says something new, so one whose begin has
+/// come is as far ahead as it was when it was told.
+std::int64_t LeadTime(const v1::CollisionEvent& event, std::int64_t now_ns);
+
+/// LeadTime(), or how long the event has been over.
 std::int64_t DistanceInTime(const v1::CollisionEvent& event, std::int64_t now_ns);
 
 /// Selects events of a view, one by one or all together. One thread.

@@ -89,6 +89,19 @@ TEST_F(EventFilterTest, WithinTakesWhatBeginsByThen) {
             (Contacts{1, 3, 4}));
 }
 
+// It would have been told anew if that had changed.
+TEST_F(EventFilterTest, AForecastWhoseBeginHasComeIsAsFarAheadAsItWas) {
+  v1::CollisionEvent event = Make(1, -kSecond);
+  event.set_now_ns(kNow - 4 * kSecond);
+  EXPECT_EQ(LeadTime(event, kNow), 3 * kSecond);
+  EXPECT_EQ(Of({.within_ns = 2 * kSecond}, {event}), Contacts{});
+  event.set_now_ns(kNow - kSecond / 2);
+  EXPECT_EQ(LeadTime(event, kNow), 0);
+  event.set_now_ns(kNow - 4 * kSecond);
+  event.set_status(v1::EVENT_CONFIRMED);
+  EXPECT_EQ(LeadTime(event, kNow), 0);
+}
+
 TEST_F(EventFilterTest, SinceTakesRevisionsThatAreNoOlder) {
   v1::CollisionEvent old = Make(1, 0), older = Make(2, 0), newer = Make(3, 0);
   old.set_now_ns(kNow - kSecond);
