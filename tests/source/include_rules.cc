@@ -102,6 +102,9 @@ const std::vector<Layer>& Layers() {
       {programs + "tools/sphere_tree/",
        {"idl/", api, library + "shape/core_mesh.h", programs + "shared/", programs + "tools/",
         core + "geometry/mesh/", core + "sphere_tree/", core + "shape/"}},
+      // Asks what the service asks, from what a monitor knows.
+      {programs + "tools/collisionctl/why/",
+       {"idl/", api, library, programs + "shared/", programs + "tools/", core + "intersection/"}},
       {programs + "tools/",
        {"idl/", api, library, checker, programs + "shared/", programs + "tools/"}},
       {programs + "shared/", {"idl/", api, library, programs + "shared/"}},

@@ -42,6 +42,10 @@ bool IsHeld(const AgentView& agent) {
 
 MessageMonitor::Callbacks WorldView::Callbacks() {
   MessageMonitor::Callbacks callbacks;
+  callbacks.hello = [this](const v1::ServiceHello& hello) {
+    if (skews_.size() >= kHellosMax) skews_.clear();
+    skews_[hello.service_id()] = hello.skew_max_ns();
+  };
   callbacks.status = [this](const v1::ServiceStatus& status) {
     status_ = status;
     standbys_.erase(status.service_id());
@@ -75,6 +79,12 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
   callbacks.states = [this](const v1::AgentStates& message) { Handle(message); };
   callbacks.clearance = [this](const v1::Clearance& message) { Handle(message); };
   return callbacks;
+}
+
+std::int64_t WorldView::skew_max_ns() const {
+  if (!status_) return 0;
+  const auto found = skews_.find(status_->service_id());
+  return found == skews_.end() ? 0 : found->second;
 }
 
 std::vector<v1::ServiceStatus> WorldView::Standbys() const {

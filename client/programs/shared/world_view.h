@@ -68,6 +68,7 @@ class WorldView {
 
   /// The longest period of a status, and a little.
   static constexpr std::chrono::seconds kStandbySilence{11};
+  static constexpr std::size_t kHellosMax = 64;    ///< Beyond it all former ones are dropped.
   static constexpr std::size_t kStandbysMax = 16;  ///< Beyond it no further one is kept.
 
   WorldView() = default;
@@ -78,6 +79,10 @@ class WorldView {
 
   const std::optional<v1::ServiceStatus>& status() const { return status_; }
   const std::optional<v1::EarliestIntersection>& earliest() const { return earliest_; }
+
+  /// κ, the bound on the offset of any clock, as the hello of the service in force says [ns]; 0 if
+  /// that has not come.
+  std::int64_t skew_max_ns() const;
 
   /// The newest status of each service that stands by and was heard within kStandbySilence.
   std::vector<v1::ServiceStatus> Standbys() const;
@@ -149,6 +154,7 @@ class WorldView {
   };
 
   std::optional<v1::ServiceStatus> status_;
+  std::map<std::uint64_t, std::int64_t> skews_;           ///< skew_max_ns of the hello, by service.
   std::map<std::uint64_t, Standby> standbys_;             ///< By service.
   std::map<std::uint64_t, v1::SimulatorReport> refused_;  ///< By simulator.
   std::optional<v1::EarliestIntersection> earliest_;

@@ -24,6 +24,8 @@
 #include "client/programs/tools/collisionctl/status/status_details.h"
 #include "client/programs/tools/collisionctl/status/status_page.h"
 #include "client/programs/tools/collisionctl/top/top.h"
+#include "client/programs/tools/collisionctl/why/agent_lookup.h"
+#include "client/programs/tools/collisionctl/why/why_page.h"
 #include "client/programs/tools/sphere_tree/command.h"
 #include "idl/limits.h"
 
@@ -46,6 +48,7 @@ struct Options {
   bool watch = false;
   bool all = false;
   TopOptions top_view;
+  std::string pair[2];  ///< Of why.
   bool explain = false;
   std::vector<std::string> agents, statuses;
   std::optional<double> within_s, since_s;
@@ -124,6 +127,20 @@ void WatchAgents(MessageMonitor* monitor, const WorldView& view, const Options& 
   }
 }
 
+/// Says why a pair meets when it does. Returns the exit code.
+int PrintWhy(const Options& options, WorldView* view) {
+  try {
+    const AgentView a = FindAgent(*view, options.pair[0]), b = FindAgent(*view, options.pair[1]);
+    if (IdOf(a) == IdOf(b)) throw NoSuchAgent("A and B are the same agent, " + options.pair[0]);
+    const PairReport report = ReportOn(a, b, NewestOf(IdOf(a), IdOf(b), view), *view);
+    std::cout << (options.json ? WhyJson(report, *view) + "\n" : WhyPage(report, *view));
+    return kExitOk;
+  } catch (const NoSuchAgent& error) {
+    std::cerr << "collisionctl: " << error.what() << '\n';
+    return kExitRefused;
+  }
+}
+
 void Print(const std::string& command, const Options& options, WorldView* view) {
   if (command == "status") {
     std::cout << (options.json  ? StatusJson(*view) + "\n"
@@ -167,7 +184,9 @@ int Run(const std::string& command, const Options& options) {
     std::cerr << "collisionctl: not all agents were heard within " << options.timeout_s
               << " s: what follows may be incomplete; --timeout sets how long to wait\n";
   }
-  if (options.watch) {
+  if (command == "why") {
+    if (const int code = PrintWhy(options, &view); code != kExitOk) return code;
+  } else if (options.watch) {
     WatchAgents(&monitor, view, options);
   } else if (command == "top") {
     TopOptions top = options.top_view;
@@ -201,6 +220,7 @@ Examples:
                                         what ada can meet in the next 10 s, in sentences
   collisionctl events --top 5           the five that are nearest in time
   collisionctl top                      a live table of the nearest pairs
+  collisionctl why ada bob              when the two can meet, why then, what would narrow it
   collisionctl evict NAME               remove a simulator with its agents
   collisionctl restart-time             lock-step: let time begin anew, for all simulators
   collisionctl sphere-tree ship.obj     how well the spheres of a mesh fit it (needs no service)
@@ -208,8 +228,8 @@ Examples:
 
 Only evict and restart-time change anything in the world. The network is that of Cyclone DDS, set
 by CYCLONEDDS_URI; it is printed on standard error at the start, with world and domain. Exit codes:
-0 done, 1 refused or not answered within the timeout, 2 usage, 69 no service within the timeout or
-no DDS, 74 the output cannot be written.)";
+0 done, 1 refused, not answered within the timeout, or no such agent, 2 usage, 69 no service within
+the timeout or no DDS, 74 the output cannot be written.)";
 
 /// Words of a status, one or several, separated by commas.
 CLI::Validator StatusWord() {
@@ -271,6 +291,15 @@ void AddTop(CLI::App* app, Options* options) {
   top->add_flag("--once", options->top_view.once, "Print it once");
 }
 
+void AddWhy(CLI::App* app, Options* options) {
+  CLI::App* why = app->add_subcommand(
+      "why", "Of two agents: their bounds, when they can meet, and what would narrow it");
+  why->add_option("A", options->pair[0], "AGENT or SIMULATOR:AGENT")
+      ->required()
+      ->check(AgentWord());
+  why->add_option("B", options->pair[1], "Likewise")->required()->check(AgentWord());
+}
+
 /// The options, and the commands that show something.
 void AddViews(CLI::App* app, Options* options) {
   AddWorldOptions(app, "World to look at", &options->monitor.world, &options->monitor.domain);
@@ -295,6 +324,7 @@ void AddViews(CLI::App* app, Options* options) {
   app->add_subcommand("earliest", "The earliest intersection that is possible now");
   AddEvents(app, options);
   AddTop(app, options);
+  AddWhy(app, options);
 }
 
 int Main(int argc, char** argv) {

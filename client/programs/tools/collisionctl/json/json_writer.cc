@@ -41,6 +41,12 @@ std::string JsonArray(const std::vector<std::string>& elements) {
   return json + "]";
 }
 
+std::string JsonTexts(const std::vector<std::string>& texts) {
+  std::vector<std::string> elements;
+  for (const std::string& text : texts) elements.push_back(JsonText(text));
+  return JsonArray(elements);
+}
+
 std::string JsonVector(const std::vector<double>& elements) {
   std::vector<std::string> texts;
   for (const double element : elements) texts.push_back(JsonNumber(element));

@@ -20,6 +20,9 @@ std::string JsonNumber(double value);
 /// An array of documents.
 std::string JsonArray(const std::vector<std::string>& elements);
 
+/// An array of texts.
+std::string JsonTexts(const std::vector<std::string>& texts);
+
 /// An array of numbers.
 std::string JsonVector(const std::vector<double>& elements);
 

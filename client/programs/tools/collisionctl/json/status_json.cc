@@ -14,12 +14,6 @@ namespace {
 
 constexpr std::int64_t kNotGiven = std::numeric_limits<std::int64_t>::min();
 
-std::string TextsJson(const std::vector<std::string>& texts) {
-  std::vector<std::string> elements;
-  for (const std::string& text : texts) elements.push_back(JsonText(text));
-  return JsonArray(elements);
-}
-
 std::string SimulatorJson(const v1::SimulatorStatus& simulator) {
   JsonObject object;
   object.Text("name", simulator.name())
@@ -88,7 +82,7 @@ void AddWorld(const v1::ServiceStatus& status, JsonObject* object) {
       .Count("followers", status.followers())
       .Text("broad_phase", status.broad_phase())
       .Text("broad_phase_why", status.broad_phase_why())
-      .Add("left_out", TextsJson({status.left_out().begin(), status.left_out().end()}));
+      .Add("left_out", JsonTexts({status.left_out().begin(), status.left_out().end()}));
 }
 
 }  // namespace
@@ -105,7 +99,7 @@ std::string StatusJson(const WorldView& view) {
     counters.Count(counter.name(), counter.value());
   }
   JsonObject document = JsonDocument("status");
-  document.Flag("well", verdict.front().starts_with("WELL")).Add("verdict", TextsJson(verdict));
+  document.Flag("well", verdict.front().starts_with("WELL")).Add("verdict", JsonTexts(verdict));
   AddService(status, &document);
   AddWorld(status, &document);
   return document.Add("simulators", JsonArray(simulators))

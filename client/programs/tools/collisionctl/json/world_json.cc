@@ -31,12 +31,6 @@ const char* NameOf(AgentPresence presence) {
 
 std::string VectorJson(const v1::Vector3& v) { return JsonVector({v.x(), v.y(), v.z()}); }
 
-std::string NamesJson(const google::protobuf::RepeatedPtrField<std::string>& names) {
-  std::vector<std::string> elements;
-  for (const std::string& name : names) elements.push_back(JsonText(name));
-  return JsonArray(elements);
-}
-
 /// What was not declared, which the wire has as no value above 0 (or from 0 on), is null.
 void AddDeclared(const char* key, double value, bool is_declared, JsonObject* object) {
   is_declared ? object->Number(key, value) : object->Null(key);
@@ -57,8 +51,10 @@ std::string DeclarationJson(const v1::AgentDescription& description) {
   const std::string& hash = description.shape_hash();
   return object.TextOrNull("class", description.class_name())
       .TextOrNull("shape_hash", hash.empty() ? "" : HexText(hash))
-      .Add("meets_in_assembly", NamesJson(description.meets_in_assembly()))
-      .Add("never_meets", NamesJson(description.never_meets()))
+      .Add("meets_in_assembly", JsonTexts({description.meets_in_assembly().begin(),
+                                           description.meets_in_assembly().end()}))
+      .Add("never_meets",
+           JsonTexts({description.never_meets().begin(), description.never_meets().end()}))
       .Json();
 }
 
