@@ -24,10 +24,14 @@ std::string TimeText(std::int64_t instant_ns, std::int64_t origin_ns, int decima
                      Rounding rounding = Rounding::kDown);
 
 /// TimeText() with its unit: "599.734 s", "22:24:55.022 UTC", "never".
-std::string InstantText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals);
+std::string InstantText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals,
+                        Rounding rounding = Rounding::kDown);
 
 /// The text, padded with spaces to a number of characters (not bytes: names may be UTF-8).
 std::string Padded(std::string text, std::size_t columns);
+
+/// Metres, or any other value, with three digits that are not above (down) or below (up) it.
+std::string MetresText(double value, Rounding rounding);
 
 /// The event in one line without a newline, with columns at the same places in every line:
 ///   599.734 s  confirmed  iridium-33 × cosmos-2251  #1 r3  begin [599.734236, 599.734370]  end
@@ -35,5 +39,11 @@ std::string Padded(std::string text, std::size_t columns);
 /// Times are seconds since `origin_ns` (0 in lock-step), or times of day as in TimeText(); brackets
 /// and gap are rounded outward. client/EVENTS.md explains each part.
 std::string EventLine(const Event& event, const AgentNamer& name, std::int64_t origin_ns);
+
+/// The event in one plain sentence, as it looks at `now_ns`:
+///   ada (people) and bob (people) will touch between 2.10 s and 2.11 s, at (4.2, 0.0, 0.0) m.
+/// What is not certain is said so. Times as in EventLine().
+std::string EventSentence(const Event& event, const AgentNamer& name, std::int64_t now_ns,
+                          std::int64_t origin_ns);
 
 }  // namespace collision::client

@@ -9,17 +9,6 @@ namespace {
 
 constexpr std::size_t kPairColumns = 28;
 
-/// Three digits that are not below (up) or not above (down) the value.
-std::string MetresText(double value, Rounding rounding) {
-  if (value != 0 && std::isfinite(value)) {
-    const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
-    value = (rounding == Rounding::kUp ? std::ceil(value / unit) : std::floor(value / unit)) * unit;
-  }
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value + 0.0);  // -0 becomes 0.
-  return text;
-}
-
 constexpr std::int64_t kSecond = 1'000'000'000;  // [ns]
 // Later instants belong to a wall clock: this is 1973, or three years of simulation.
 constexpr std::int64_t kWallClock = 100'000'000 * kSecond;
@@ -148,6 +137,16 @@ std::string GapText(const Event& event) {
 
 }  // namespace
 
+std::string MetresText(double value, Rounding rounding) {
+  if (value != 0 && std::isfinite(value)) {
+    const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
+    value = (rounding == Rounding::kUp ? std::ceil(value / unit) : std::floor(value / unit)) * unit;
+  }
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value + 0.0);  // -0 becomes 0.
+  return text;
+}
+
 std::string Padded(std::string text, std::size_t columns) {
   const auto width = static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
@@ -186,8 +185,9 @@ std::string TimeText(std::int64_t instant_ns, std::int64_t origin_ns, int decima
          WithFraction(seconds % 60, units % per_second, decimals);
 }
 
-std::string InstantText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals) {
-  std::string text = TimeText(instant_ns, origin_ns, decimals);
+std::string InstantText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals,
+                        Rounding rounding) {
+  std::string text = TimeText(instant_ns, origin_ns, decimals, rounding);
   if (instant_ns == kNever) return text;
   return text + (IsTimeOfDay(instant_ns, origin_ns) ? " UTC" : " s");
 }

@@ -1,15 +1,14 @@
 #include "tests/network/testbed.h"
 
-#include <google/protobuf/util/json_util.h>
 #include <signal.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "tests/network/printed_events.h"
 #include "tests/system/event_log.h"
 
 namespace collision::network {
@@ -46,16 +45,6 @@ std::string Config(const TestbedOptions& options) {
 std::int64_t WallNow() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
-std::vector<v1::CollisionEvent> ParseEvents(const std::string& lines) {
-  std::vector<v1::CollisionEvent> events;
-  std::istringstream stream(lines);
-  for (std::string line; std::getline(stream, line);) {
-    v1::CollisionEvent event;
-    if (google::protobuf::util::JsonStringToMessage(line, &event).ok()) events.push_back(event);
-  }
-  return events;
 }
 
 bool IsContact(const v1::CollisionEvent& event) { return event.contacts_sequence() != 0; }

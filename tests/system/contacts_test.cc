@@ -52,7 +52,7 @@ Heard HeardIn(const std::string& output) {
   for (std::string line; std::getline(lines, line);) {
     const std::string number = Field(line, "contacts_sequence");
     if (number.empty()) continue;
-    if (number != "\"0\"") heard.contacts.push_back(std::stoull(number.substr(1)));
+    if (number != "null") heard.contacts.push_back(std::stoull(number));
     const auto pair = line.find("\"lower\"");
     ++heard.revisions[line.substr(pair, line.find("\"revision\"") - pair)];
   }
@@ -61,8 +61,7 @@ Heard HeardIn(const std::string& output) {
 
 std::uint64_t ContactsPublished(const TestWorld& world) {
   const std::string status = world.Monitor({"status", "--json"}).out;
-  const std::string value = Field(status.substr(status.find("contacts_published")), "value");
-  return std::stoull(value.substr(1));
+  return std::stoull(Field(status, "contacts_published"));
 }
 
 TEST(Contacts, EachIsHeardByAMonitorThatStandsStillAndByOneThatIsNotRead) {
@@ -74,8 +73,8 @@ TEST(Contacts, EachIsHeardByAMonitorThatStandsStillAndByOneThatIsNotRead) {
   for (const auto& process : {world.StartSimulator(kLeft), world.StartSimulator(kRight)}) {
     ASSERT_EQ(process->WaitForExit(), 0) << process->err();
   }
-  ASSERT_TRUE(unread->WaitForOutput("EVENT_ENDED")) << unread->err();
-  ASSERT_TRUE(stopped->WaitForOutput("EVENT_ENDED")) << stopped->err();
+  ASSERT_TRUE(unread->WaitForOutput("\"status\":\"ended\"")) << unread->err();
+  ASSERT_TRUE(stopped->WaitForOutput("\"status\":\"ended\"")) << stopped->err();
 
   stopped->Signal(SIGSTOP);
   const auto columns =
@@ -90,7 +89,7 @@ TEST(Contacts, EachIsHeardByAMonitorThatStandsStillAndByOneThatIsNotRead) {
   EXPECT_GE(published, 2u * kColumn * kColumn);
   std::vector<std::uint64_t> all;
   for (std::uint64_t number = 1; number <= published; ++number) all.push_back(number);
-  const std::string last = "\"contacts_sequence\":\"" + std::to_string(published) + "\"";
+  const std::string last = "\"contacts_sequence\":" + std::to_string(published) + ",";
   for (const auto& monitor : {unread.get(), stopped.get()}) {
     ASSERT_TRUE(monitor->WaitForOutput(last)) << monitor->err();
     const Heard heard = HeardIn(monitor->out());

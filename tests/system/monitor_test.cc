@@ -29,7 +29,7 @@ TEST(Monitor, ShowsALiveWorld) {
   EXPECT_TRUE(world.MonitorComesToSay({"status", "--json"}, "right-sim"));
   EXPECT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));
   EXPECT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
-  EXPECT_TRUE(world.MonitorComesToSay({"events", "--json"}, "EVENT_ENDED"));
+  EXPECT_TRUE(world.MonitorComesToSay({"events", "--json"}, "\"status\":\"ended\""));
   EXPECT_TRUE(world.MonitorComesToSay({"earliest", "--json"}, "earliest_ns"));
   EXPECT_TRUE(
       world.MonitorComesToSay({"suggest-bounds", "--live", "--seconds", "0.5"}, "left-sim/left "));

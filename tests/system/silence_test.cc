@@ -32,7 +32,8 @@ TEST(SilenceOfPrograms, AGhostIsShownAndCanBeEvicted) {
       << wrong.err;
   const Outcome refused = world.Monitor({"evict", "nobody", "--json"});
   EXPECT_EQ(refused.status, kRefused);
-  EXPECT_TRUE(refused.out.starts_with("{\"done\":false,\"answer\":\"no simulator ")) << refused.out;
+  EXPECT_TRUE(refused.out.ends_with("\"}\n")) << refused.out;
+  EXPECT_TRUE(Contains(refused.out, "\"done\":false,\"answer\":\"no simulator ")) << refused.out;
   const Outcome evicted = world.Monitor({"evict", "left-sim"});
   EXPECT_EQ(evicted.status, 0) << evicted.err;
   EXPECT_TRUE(Contains(evicted.out, "simulator \"left-sim\" is removed with its 1 agents"));
@@ -54,7 +55,7 @@ TEST(SilenceOfPrograms, TimeBeginsAnew) {
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));
   const Outcome restarted = world.Monitor({"restart-time", "--json"});
   EXPECT_EQ(restarted.status, 0) << restarted.err;
-  EXPECT_TRUE(restarted.out.starts_with("{\"done\":true,\"answer\":\"the world's time begins anew"))
+  EXPECT_TRUE(Contains(restarted.out, "\"done\":true,\"answer\":\"the world's time begins anew"))
       << restarted.out;
   EXPECT_TRUE(restarted.out.ends_with("\"}\n")) << restarted.out;
   EXPECT_TRUE(world.MonitorComesToSay({"status", "--json"}, "\"epoch\":2")) << daemon->err();

@@ -106,7 +106,7 @@ TEST_F(StandbyTest, TakesOverFromAnOlderVersionThatIsEnded) {
   EXPECT_EQ(first_->WaitForExit(), 0) << first_->err();
   const Outcome status = world_.Monitor({"status", "--json"});
   EXPECT_TRUE(Contains(status.out, "\"version\":\"next\"")) << status.out;
-  EXPECT_TRUE(Contains(status.out, "PHASE_SERVING")) << status.out;
+  EXPECT_TRUE(Contains(status.out, "\"phase\":\"serving\"")) << status.out;
   ExpectOneContact();
 }
 

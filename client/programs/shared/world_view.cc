@@ -42,6 +42,10 @@ bool IsHeld(const AgentView& agent) {
 
 MessageMonitor::Callbacks WorldView::Callbacks() {
   MessageMonitor::Callbacks callbacks;
+  callbacks.hello = [this](const v1::ServiceHello& hello) {
+    if (skews_.size() >= kHellosMax) skews_.clear();
+    skews_[hello.service_id()] = hello.skew_max_ns();
+  };
   callbacks.status = [this](const v1::ServiceStatus& status) {
     status_ = status;
     standbys_.erase(status.service_id());
@@ -56,10 +60,7 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
     if (standbys_.size() >= kStandbysMax && !standbys_.contains(status.service_id())) return;
     standbys_[status.service_id()] = {status, now};
   };
-  // A report outlives its simulator: it names what has left before this monitor came.
-  callbacks.report = [this](const v1::SimulatorReport& report) {
-    KeepSimulatorName(report.simulator_id(), report.name());
-  };
+  callbacks.report = [this](const v1::SimulatorReport& report) { Handle(report); };
   callbacks.earliest = [this](const v1::EarliestIntersection& earliest) { earliest_ = earliest; };
   callbacks.event = [this](const v1::CollisionEvent& event) {
     KeepLabel(event.lower(), event.lower_label());
@@ -80,6 +81,12 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
   return callbacks;
 }
 
+std::int64_t WorldView::skew_max_ns() const {
+  if (!status_) return 0;
+  const auto found = skews_.find(status_->service_id());
+  return found == skews_.end() ? 0 : found->second;
+}
+
 std::vector<v1::ServiceStatus> WorldView::Standbys() const {
   std::vector<v1::ServiceStatus> standbys;
   const auto now = std::chrono::steady_clock::now();
@@ -89,21 +96,19 @@ std::vector<v1::ServiceStatus> WorldView::Standbys() const {
   return standbys;
 }
 
+std::vector<v1::SimulatorReport> WorldView::Refused() const {
+  std::vector<v1::SimulatorReport> refused;
+  for (const auto& [id, report] : refused_) {
+    // Another service judges for itself.
+    if (status_ && report.stamp().service_id() == status_->service_id()) refused.push_back(report);
+  }
+  return refused;
+}
+
 std::vector<AgentView> WorldView::Agents() const {
   std::vector<AgentView> agents;
-  for (const auto& entry : descriptions_) {
-    const auto& description = entry.second;
-    AgentView& agent = agents.emplace_back();
-    agent.description = description;
-    // A sample of an earlier run, or of an earlier agent in this slot, belongs to another agent.
-    const auto take = [&](const auto& samples, auto* to) {
-      const auto found = samples.find(entry.first);
-      if (found == samples.end() || found->second.first != description.run()) return;
-      if (found->second.second.generation() == description.generation()) *to = found->second.second;
-    };
-    take(states_, &agent.state);
-    take(clearances_, &agent.clearance);
-    agent.presence = PresenceOf(description);
+  for (const auto& [key, description] : descriptions_) {
+    agents.push_back(Described(key, description));
   }
   for (const auto& [key, clearance] : clearances_) {
     if (!IsHeldOnly(key.first, key.second, clearance.first)) continue;
@@ -114,6 +119,36 @@ std::vector<AgentView> WorldView::Agents() const {
            Key(b.description.simulator_id(), b.description.slot());
   });
   return agents;
+}
+
+std::optional<AgentView> WorldView::Agent(const AgentId& id) const {
+  const Key key{id.simulator, id.slot};
+  const auto described = descriptions_.find(key);
+  if (described != descriptions_.end() && described->second.run() == id.run) {
+    if (described->second.generation() != id.generation) return std::nullopt;
+    return Described(key, described->second);
+  }
+  const auto cleared = clearances_.find(key);
+  if (cleared == clearances_.end() || !IsHeldOnly(id.simulator, id.slot, id.run)) {
+    return std::nullopt;
+  }
+  if (cleared->second.second.generation() != id.generation) return std::nullopt;
+  return HeldOnly(id.simulator, id.run, cleared->second.second);
+}
+
+AgentView WorldView::Described(const Key& key, const v1::AgentDescription& description) const {
+  AgentView agent;
+  agent.description = description;
+  // A sample of an earlier run, or of an earlier agent in this slot, belongs to another agent.
+  const auto take = [&](const auto& samples, auto* to) {
+    const auto found = samples.find(key);
+    if (found == samples.end() || found->second.first != description.run()) return;
+    if (found->second.second.generation() == description.generation()) *to = found->second.second;
+  };
+  take(states_, &agent.state);
+  take(clearances_, &agent.clearance);
+  agent.presence = PresenceOf(description);
+  return agent;
 }
 
 std::vector<UnknownAgents> WorldView::Unknown() const {
@@ -222,6 +257,10 @@ std::string WorldView::Name(const AgentId& id) const {
 
 bool WorldView::IsNamed(const AgentId& id) const { return names_.contains(id); }
 
+std::string WorldView::FullName(const AgentId& id) const {
+  return IsNamed(id) ? Name(id) + " (" + SimulatorName(id.simulator) + ")" : Name(id);
+}
+
 std::vector<v1::CollisionEvent> WorldView::TakeEvents() {
   const auto order = [](const v1::CollisionEvent& event) {
     const v1::ServiceStamp& stamp = event.stamp();
@@ -256,6 +295,18 @@ void WorldView::KeepLabel(const v1::AgentId& id, const v1::AgentLabel& label) {
   KeepSimulatorName(id.simulator_id(), label.simulator_name());
   names_.try_emplace(FromMessage(id), label.agent_name());
   if (names_.size() > kNamesMax) names_.erase(names_.begin());
+}
+
+/// A report outlives its simulator: it names what has left before this monitor came.
+void WorldView::Handle(const v1::SimulatorReport& report) {
+  KeepSimulatorName(report.simulator_id(), report.name());
+  const bool is_refused =
+      report.alive() && report.ended() == v1::RUN_GOES_ON && report.refusals_size() > 0;
+  if (!is_refused) {
+    refused_.erase(report.simulator_id());
+  } else if (refused_.size() < kSimulatorNamesMax) {
+    refused_.insert_or_assign(report.simulator_id(), report);
+  }
 }
 
 void WorldView::Handle(const v1::AgentDescription& description) {

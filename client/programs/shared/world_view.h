@@ -68,6 +68,7 @@ class WorldView {
 
   /// The longest period of a status, and a little.
   static constexpr std::chrono::seconds kStandbySilence{11};
+  static constexpr std::size_t kHellosMax = 64;    ///< Beyond it all former ones are dropped.
   static constexpr std::size_t kStandbysMax = 16;  ///< Beyond it no further one is kept.
 
   WorldView() = default;
@@ -79,12 +80,22 @@ class WorldView {
   const std::optional<v1::ServiceStatus>& status() const { return status_; }
   const std::optional<v1::EarliestIntersection>& earliest() const { return earliest_; }
 
+  /// κ, the bound on the offset of any clock, as the hello of the service in force says [ns]; 0 if
+  /// that has not come.
+  std::int64_t skew_max_ns() const;
+
   /// The newest status of each service that stands by and was heard within kStandbySilence.
   std::vector<v1::ServiceStatus> Standbys() const;
+
+  /// What the service in force has of each living simulator of which it refuses something now.
+  std::vector<v1::SimulatorReport> Refused() const;
 
   /// All described agents, and those that the service holds without a living writer, by simulator
   /// and slot.
   std::vector<AgentView> Agents() const;
+
+  /// The agent, if it is one of these.
+  std::optional<AgentView> Agent(const AgentId& id) const;
 
   /// How many more the service holds of each simulator that is not heard: a simulator that was
   /// granted nothing has no clearances, and so its agents have no identity.
@@ -101,6 +112,13 @@ class WorldView {
   std::string Name(const AgentId& id) const;
   bool IsNamed(const AgentId& id) const;
 
+  /// The name with that of its simulator, "ada (people)"; "simulator:slot" if it was never
+  /// described.
+  std::string FullName(const AgentId& id) const;
+
+  /// The simulator's name, also after it has left; its id in hexadecimal if it was never heard.
+  std::string SimulatorName(std::uint64_t id) const;
+
   /// The events since the last call, in the order in which the service published them.
   std::vector<v1::CollisionEvent> TakeEvents();
 
@@ -113,6 +131,7 @@ class WorldView {
  private:
   using Key = std::pair<std::uint64_t, std::uint32_t>;  ///< Simulator, slot.
 
+  void Handle(const v1::SimulatorReport& report);
   void Handle(const v1::AgentDescription& description);
   void Handle(const v1::AgentRemoval& removal);
   void Handle(const v1::ShapePart& part);
@@ -121,11 +140,11 @@ class WorldView {
   void ForgetFormerRuns(std::uint64_t simulator, std::uint32_t run);
   void KeepLabel(const v1::AgentId& id, const v1::AgentLabel& label);
   void KeepSimulatorName(std::uint64_t id, const std::string& name);
-  std::string SimulatorName(std::uint64_t id) const;
   AgentPresence PresenceOf(const v1::AgentDescription& description) const;
   AgentPresence SilentPresence(const std::string& simulator) const;
   const v1::SimulatorStatus* StatusOf(std::uint64_t simulator) const;
   bool IsHeldOnly(std::uint64_t simulator, std::uint32_t slot, std::uint32_t run) const;
+  AgentView Described(const Key& key, const v1::AgentDescription& description) const;
   AgentView HeldOnly(std::uint64_t simulator, std::uint32_t run,
                      const v1::AgentClearance& clearance) const;
 
@@ -135,7 +154,9 @@ class WorldView {
   };
 
   std::optional<v1::ServiceStatus> status_;
-  std::map<std::uint64_t, Standby> standbys_;  ///< By service.
+  std::map<std::uint64_t, std::int64_t> skews_;           ///< skew_max_ns of the hello, by service.
+  std::map<std::uint64_t, Standby> standbys_;             ///< By service.
+  std::map<std::uint64_t, v1::SimulatorReport> refused_;  ///< By simulator.
   std::optional<v1::EarliestIntersection> earliest_;
   std::map<Key, v1::AgentDescription> descriptions_;
   std::map<std::uint64_t, std::uint32_t> newest_runs_;    ///< By simulator, of its descriptions.

@@ -3,23 +3,29 @@
 #include <cmath>
 #include <csignal>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
+#include <tuple>
+#include <vector>
 
-#include "client/api/event_text.h"
-#include "client/api/pending_names.h"
 #include "client/library/deadline.h"
-#include "client/library/network/conversion.h"
 #include "client/library/network/dds_transport.h"
 #include "client/library/notices/notices.h"
 #include "client/library/validation.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/agents_watcher.h"
-#include "client/programs/tools/collisionctl/json_pages.h"
+#include "client/programs/tools/collisionctl/events/event_printer.h"
+#include "client/programs/tools/collisionctl/json/status_json.h"
+#include "client/programs/tools/collisionctl/json/world_json.h"
 #include "client/programs/tools/collisionctl/operator_request.h"
+#include "client/programs/tools/collisionctl/pages/text_pages.h"
 #include "client/programs/tools/collisionctl/service_notes.h"
-#include "client/programs/tools/collisionctl/status_page.h"
-#include "client/programs/tools/collisionctl/text_pages.h"
+#include "client/programs/tools/collisionctl/status/status_details.h"
+#include "client/programs/tools/collisionctl/status/status_page.h"
+#include "client/programs/tools/collisionctl/top/top.h"
+#include "client/programs/tools/collisionctl/why/agent_lookup.h"
+#include "client/programs/tools/collisionctl/why/why_page.h"
 #include "client/programs/tools/sphere_tree/command.h"
 #include "client/programs/tools/suggest_bounds/command.h"
 #include "idl/limits.h"
@@ -31,7 +37,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kQuiet{150};       // Nothing new for this long: the picture is complete.
 constexpr milliseconds kFollowWait{250};  // Longest time to notice Ctrl-C.
-constexpr int kPollsMax = 8;  // Then the picture counts as complete in a world that is never quiet.
+constexpr milliseconds kBusy{1000};       // A world that is never quiet: likewise.
 
 volatile std::sig_atomic_t stopped = 0;
 
@@ -41,18 +47,26 @@ struct Options {
   bool json = false;
   bool follow = false;
   bool watch = false;
+  bool all = false;
+  TopOptions top_view;
+  std::string pair[2];  ///< Of why.
+  bool explain = false;
+  std::vector<std::string> agents, statuses;
+  std::optional<double> within_s, since_s;
+  std::optional<std::size_t> top;
   double period_s = 1;
 };
 
 /// Gathers the values that late readers receive, until `enough` and quiet, or until the deadline.
 template <typename Enough>
 void Gather(MessageMonitor* monitor, const Deadline& deadline, Enough enough) {
-  for (int polls = 0; polls < kPollsMax && stopped == 0 && deadline.Remaining().count() > 0;) {
+  std::optional<Deadline> busy;
+  while (stopped == 0 && deadline.Remaining().count() > 0) {
     const auto wait = std::min<std::chrono::nanoseconds>(kQuiet, deadline.Remaining());
     const bool quiet = monitor->Poll(wait) == 0;
     if (!enough()) continue;
-    if (quiet) return;
-    ++polls;
+    if (!busy) busy.emplace(kBusy);
+    if (quiet || busy->Remaining().count() == 0) return;
   }
 }
 
@@ -64,65 +78,38 @@ bool WaitForService(MessageMonitor* monitor, const WorldView& view, const Deadli
   return view.status().has_value();
 }
 
-void PrintLine(const Event& event, const WorldView& view) {
-  std::cout << EventLine(
-                   event, [&view](const AgentId& id) { return view.Name(id); }, 0)
-            << '\n';
-}
-
-/// Prints these events.
-void PrintEvents(const std::vector<v1::CollisionEvent>& events, const WorldView& view, bool json) {
-  for (const v1::CollisionEvent& message : events) {
-    if (json) {
-      std::cout << Json(message) << '\n';
-    } else {
-      PrintLine(FromMessage(message), view);
-    }
-  }
-  std::cout.flush();
-}
-
-/// Likewise, but a line waits for the names of its agents; JSON has none.
-void PrintNewEvents(WorldView* view, PendingNames* pending, bool json) {
-  if (json) return PrintEvents(view->TakeEvents(), *view, json);
-  const auto now = std::chrono::steady_clock::now();
-  for (const v1::CollisionEvent& message : view->TakeEvents()) {
-    pending->Add(FromMessage(message), now);
-  }
-  const auto named = [view](const AgentId& id) { return view->IsNamed(id); };
-  for (const Event& event : pending->Take(named, now)) PrintLine(event, *view);
-  std::cout.flush();
-}
-
-/// Says among the events how many contacts were lost since it was said last.
-void PrintGap(std::uint64_t missed, std::uint64_t* told, bool json) {
-  if (missed > *told) {
-    const std::uint64_t more = missed - *told;
-    std::cout << (json ? MissedJson(more, missed) : MissedLine(more, missed)) << std::endl;
-  }
-  *told = missed;
-}
-
-void Follow(MessageMonitor* monitor, WorldView* view, bool json) {
-  PendingNames pending;
+void Follow(MessageMonitor* monitor, WorldView* view, EventPrinter* printer) {
   ServiceNotes notes;
-  std::uint64_t missed = 0;
   while (stopped == 0 && std::cout) {
-    PrintGap(monitor->contacts_missed(), &missed, json);
-    PrintNewEvents(view, &pending, json);
+    printer->PrintGap(monitor->contacts_missed());
+    printer->PrintNew(view);
     monitor->Poll(kFollowWait);
     const auto note = notes.Take(monitor->service_alive(), view->status());
     if (note) std::cerr << *note << '\n';
   }
   monitor->Poll(std::chrono::nanoseconds(0));  // What had arrived when it was told to stop.
-  PrintGap(monitor->contacts_missed(), &missed, json);
-  PrintNewEvents(view, &pending, json);
+  printer->PrintGap(monitor->contacts_missed());
+  printer->PrintNew(view);
   std::cerr << ContactsSummary(view->contacts(), monitor->contacts_missed()) << '\n';
 }
 
 std::chrono::nanoseconds Seconds(double seconds) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double>(seconds));
+}
+
+std::optional<std::int64_t> Nanoseconds(const std::optional<double>& seconds) {
+  if (!seconds) return std::nullopt;
+  return Seconds(*seconds).count();
+}
+
+EventFilter FilterOf(const Options& options) {
+  EventFilter filter{.agents = options.agents,
+                     .within_ns = Nanoseconds(options.within_s),
+                     .since_ns = Nanoseconds(options.since_s),
+                     .top = options.top};
+  for (const std::string& status : options.statuses) filter.statuses.push_back(*StatusOf(status));
+  return filter;
 }
 
 /// Prints the agents once a period, with states that are no older, until Ctrl-C.
@@ -141,10 +128,25 @@ void WatchAgents(MessageMonitor* monitor, const WorldView& view, const Options& 
   }
 }
 
+/// Says why a pair meets when it does. Returns the exit code.
+int PrintWhy(const Options& options, WorldView* view) {
+  try {
+    const AgentView a = FindAgent(*view, options.pair[0]), b = FindAgent(*view, options.pair[1]);
+    if (IdOf(a) == IdOf(b)) throw NoSuchAgent("A and B are the same agent, " + options.pair[0]);
+    const PairReport report = ReportOn(a, b, NewestOf(IdOf(a), IdOf(b), view), *view);
+    std::cout << (options.json ? WhyJson(report, *view) + "\n" : WhyPage(report, *view));
+    return kExitOk;
+  } catch (const NoSuchAgent& error) {
+    std::cerr << "collisionctl: " << error.what() << '\n';
+    return kExitRefused;
+  }
+}
+
 void Print(const std::string& command, const Options& options, WorldView* view) {
-  if (command == "events") return PrintEvents(view->TakeNewestRevisions(), *view, options.json);
   if (command == "status") {
-    std::cout << (options.json ? StatusJson(*view) : StatusPage(*view));
+    std::cout << (options.json  ? StatusJson(*view) + "\n"
+                  : options.all ? StatusDetails(*view)
+                                : StatusPage(*view));
   } else if (command == "agents") {
     std::cout << (options.json ? AgentsJson(*view) + "\n" : AgentsPage(*view));
   } else if (command == "shapes") {
@@ -183,10 +185,19 @@ int Run(const std::string& command, const Options& options) {
     std::cerr << "collisionctl: not all agents were heard within " << options.timeout_s
               << " s: what follows may be incomplete; --timeout sets how long to wait\n";
   }
-  if (options.watch) {
+  if (command == "why") {
+    if (const int code = PrintWhy(options, &view); code != kExitOk) return code;
+  } else if (options.watch) {
     WatchAgents(&monitor, view, options);
-  } else if (options.follow) {
-    Follow(&monitor, &view, options.json);
+  } else if (command == "top") {
+    TopOptions top = options.top_view;
+    top.period = Seconds(options.period_s);
+    top.json = options.json;
+    RunTop(top, &monitor, &view, [] { return stopped != 0; });
+  } else if (command == "events") {
+    EventPrinter printer({.json = options.json, .explain = options.explain}, FilterOf(options),
+                         &std::cout);
+    options.follow ? Follow(&monitor, &view, &printer) : printer.PrintCurrent(&view);
   } else {
     Print(command, options, &view);
   }
@@ -198,23 +209,98 @@ int Run(const std::string& command, const Options& options) {
 
 constexpr const char* kExamples = R"(
 Examples:
-  collisionctl status                   health of the service, simulators, refusals
+  collisionctl status                   whether all is well; else what is wrong, and what to do
+  collisionctl status --all             every simulator, the broad phase and why, all counters
   collisionctl earliest                 the pair that can touch first, and the earliest time for it
   collisionctl agents                   every agent, and how long it is clear
   collisionctl agents --watch           likewise every second, with fresh states, until Ctrl-C
   collisionctl shapes                   every shape: owner, triangles and solids, parts received
   collisionctl events                   the current revision of every event
   collisionctl events --follow          one line per revision as it comes, until Ctrl-C
+  collisionctl events --agent ada --status possible,confirmed --within 10 --explain
+                                        what ada can meet in the next 10 s, in sentences
+  collisionctl events --top 5           the five that are nearest in time
+  collisionctl top                      a live table of the nearest pairs
+  collisionctl why ada bob              when the two can meet, why then, what would narrow it
   collisionctl evict NAME               remove a simulator with its agents
   collisionctl restart-time             lock-step: let time begin anew, for all simulators
   collisionctl suggest-bounds run.rec   bounds that the agents of a recording keep; also CSV, --live
   collisionctl sphere-tree ship.obj     how well the spheres of a mesh fit it (needs no service)
-  collisionctl --world lab events --follow --json | jq 'select(.status == "EVENT_CONFIRMED")'
+  collisionctl --world lab events --follow --json | jq 'select(.status == "confirmed")'
 
 Only evict and restart-time change anything in the world. The network is that of Cyclone DDS, set
 by CYCLONEDDS_URI; it is printed on standard error at the start, with world and domain. Exit codes:
-0 done, 1 refused or not answered within the timeout, 2 usage, 69 no service within the timeout or
-no DDS, 74 the output cannot be written.)";
+0 done, 1 refused, not answered within the timeout, or no such agent, 2 usage, 69 no service within
+the timeout or no DDS, 74 the output cannot be written.)";
+
+/// Words of a status, one or several, separated by commas.
+CLI::Validator StatusWord() {
+  const auto check = [](const std::string& text) {
+    if (StatusOf(text)) return std::string();
+    return "\"" + text + "\", allowed: possible, confirmed, dismissed, undecided, withdrawn, ended";
+  };
+  return CLI::Validator(check, "STATUS");
+}
+
+/// The name of an agent, alone or behind its simulator's.
+CLI::Validator AgentWord() {
+  const auto check = [](const std::string& text) {
+    if (!text.empty() && text.size() <= 2 * wire::kNameMax + 1) return std::string();
+    return "\"" + text + "\", allowed: AGENT or SIMULATOR:AGENT, 1 to 129 bytes";
+  };
+  return CLI::Validator(check, "NAME");
+}
+
+void AddEvents(CLI::App* app, Options* options) {
+  constexpr double kSecondsMax = 1e9;
+  CLI::App* events = app->add_subcommand("events", "The current events");
+  events->add_flag("--follow", options->follow, "Print every further revision as it arrives");
+  events->add_flag("--explain", options->explain, "One plain sentence for each event");
+  events
+      ->add_option("--agent", options->agents,
+                   "Only events of this agent, on either side: AGENT or SIMULATOR:AGENT")
+      ->check(AgentWord());
+  events
+      ->add_option("--status", options->statuses,
+                   "Only these: possible, confirmed, dismissed, undecided, withdrawn, ended")
+      ->delimiter(',')
+      ->check(StatusWord());
+  events
+      ->add_option("--within", options->within_s,
+                   "Only what begins at most so many seconds ahead of now, 0 to 1e9")
+      ->check(Finite(kSecondsMax, true));
+  events
+      ->add_option("--since", options->since_s,
+                   "Only revisions of the last so many seconds, 0 to 1e9")
+      ->check(Finite(kSecondsMax, true));
+  events
+      ->add_option("--top", options->top,
+                   "Only the so many that are nearest in time, 1 to 4096; the nearest first")
+      ->check(CLI::Range(std::size_t{1}, EventSelection::kRememberedMax));
+}
+
+void AddTop(CLI::App* app, Options* options) {
+  constexpr double kPeriodMin = 0.1, kPeriodMax = 3600;
+  constexpr std::size_t kRowsMax = 1000;
+  CLI::App* top = app->add_subcommand(
+      "top", "The pairs that are nearest in time, drawn anew every period until Ctrl-C or q");
+  top->add_option("--rows", options->top_view.rows, "Pairs to show at most, 1 to 1000")
+      ->check(CLI::Range(std::size_t{1}, kRowsMax))
+      ->capture_default_str();
+  top->add_option("--period", options->period_s, "Seconds between two pictures, 0.1 to 3600")
+      ->check(CLI::Range(kPeriodMin, kPeriodMax))
+      ->capture_default_str();
+  top->add_flag("--once", options->top_view.once, "Print it once");
+}
+
+void AddWhy(CLI::App* app, Options* options) {
+  CLI::App* why = app->add_subcommand(
+      "why", "Of two agents: their bounds, when they can meet, and what would narrow it");
+  why->add_option("A", options->pair[0], "AGENT or SIMULATOR:AGENT")
+      ->required()
+      ->check(AgentWord());
+  why->add_option("B", options->pair[1], "Likewise")->required()->check(AgentWord());
+}
 
 /// The options, and the commands that show something.
 void AddViews(CLI::App* app, Options* options) {
@@ -226,7 +312,8 @@ void AddViews(CLI::App* app, Options* options) {
   app->require_subcommand(1);
   app->fallthrough();
   app->footer(kExamples);
-  app->add_subcommand("status", "Service, clock, simulators, broad phase and why, refusals");
+  app->add_subcommand("status", "In 12 lines: what is wrong and what to do, service, simulators")
+      ->add_flag("--all", options->all, "All that the service tells, with every simulator");
   CLI::App* agents = app->add_subcommand("agents", "Table of all agents");
   CLI::Option* watch = agents->add_flag(
       "--watch", options->watch,
@@ -237,8 +324,9 @@ void AddViews(CLI::App* app, Options* options) {
       ->capture_default_str();
   app->add_subcommand("shapes", "Table of all shapes that agents have");
   app->add_subcommand("earliest", "The earliest intersection that is possible now");
-  app->add_subcommand("events", "The current events")
-      ->add_flag("--follow", options->follow, "Print every further revision as it arrives");
+  AddEvents(app, options);
+  AddTop(app, options);
+  AddWhy(app, options);
 }
 
 int Main(int argc, char** argv) {
@@ -272,8 +360,12 @@ int Main(int argc, char** argv) {
     const MonitorOptions& place = options.monitor;
     return RunSuggestBounds(bounds, {place.world, place.domain, options.timeout_s}, options.json);
   }
-  if (!std::isfinite(options.timeout_s)) {  // CLI::Range lets NaN pass.
-    std::cerr << "collisionctl: --timeout: " << options.timeout_s << ", allowed: 0 to 1e6\n";
+  // CLI::Range lets NaN pass.
+  for (const auto& [option, value, allowed] :
+       {std::tuple("--timeout", options.timeout_s, "0 to 1e6"),
+        {"--period", options.period_s, "a number of seconds"}}) {
+    if (std::isfinite(value)) continue;
+    std::cerr << "collisionctl: " << option << ": " << value << ", allowed: " << allowed << '\n';
     return kExitUsage;
   }
   try {

@@ -1,14 +1,12 @@
 #include "client/programs/tools/collisionctl/operator_request.h"
 
-#include <google/protobuf/struct.pb.h>
-
 #include <chrono>
 #include <iostream>
 #include <random>
 
 #include "client/library/network/dds_transport.h"
 #include "client/programs/shared/exit_code.h"
-#include "client/programs/tools/collisionctl/json_pages.h"
+#include "client/programs/tools/collisionctl/json/json_writer.h"
 #include "idl/identity.h"
 
 namespace collision::client {
@@ -69,10 +67,8 @@ std::string ResultJson(const RequestResult& result) {
   const bool done = result.outcome == RequestOutcome::kDone;
   const std::string& answer = result.answer;
   const std::string prefix = done ? kDone : kRefused;
-  google::protobuf::Value text;  // Adds quotes and escapes.
-  text.set_string_value(answer.starts_with(prefix) ? answer.substr(prefix.size()) : answer);
-  return std::string("{\"done\":") + (done ? "true" : "false") +
-         ",\"answer\":" + (answer.empty() ? "null" : Json(text)) + "}";
+  const std::string text = answer.starts_with(prefix) ? answer.substr(prefix.size()) : answer;
+  return JsonDocument("answer").Flag("done", done).TextOrNull("answer", text).Json();
 }
 
 int RunOperatorRequest(const std::string& world, std::uint32_t domain, double timeout_s,

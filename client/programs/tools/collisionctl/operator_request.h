@@ -33,8 +33,8 @@ RequestResult Request(Transport* transport, const v1::OperatorCommand& command,
 std::optional<std::string> AnswerIn(const v1::ServiceStatus& status,
                                     const v1::OperatorCommand& command);
 
-/// {"done": whether the service obeyed, "answer": its words, without "done: " or "refused: "; null:
-/// it has not answered}. One line, without a newline.
+/// A document of kind "answer": whether the service obeyed, and its words, without "done: " or
+/// "refused: "; null: it has not answered. One line without a newline.
 std::string ResultJson(const RequestResult& result);
 
 /// Connects, requests, and prints the answer: to standard output, or the reason of a failure to

@@ -10,7 +10,8 @@
 
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/mesh_option.h"
-#include "client/programs/tools/collisionctl/json_pages.h"
+#include "client/programs/tools/collisionctl/json/json_writer.h"
+#include "client/programs/tools/collisionctl/json/message_json.h"
 #include "client/programs/tools/sphere_tree/export.h"
 #include "client/programs/tools/sphere_tree/picture.h"
 #include "client/programs/tools/sphere_tree/report.h"
@@ -111,6 +112,12 @@ std::string Exported(const SphereTreeOptions& options, const MeshTree& mesh_tree
   return TreeBinary(mesh_tree);
 }
 
+/// A document of kind "sphere-tree" with the fields of the report.
+std::string ReportJson(const v1::TreeReport& report) {
+  const std::string head = JsonDocument("sphere-tree").Json();
+  return head.substr(0, head.size() - 1) + "," + MessageJson(report).substr(1);
+}
+
 void PrintWritten(const std::string& what, const std::string& file, std::ostream& out) {
   out << what << " written to " << file << '\n';
 }
@@ -123,7 +130,7 @@ void Deliver(const SphereTreeOptions& options, const MeshTree& mesh_tree) {
   const v1::TreeReport report = ReportOf(mesh_tree);
   const bool json = options.report == "json";
   if (!exports_here || !options.report.empty()) {
-    out << (json ? Json(report) + "\n" : ReportText(mesh_tree, report));
+    out << (json ? ReportJson(report) + "\n" : ReportText(mesh_tree, report));
   }
   // JSON stays one document.
   std::ostream& notes = json ? std::cerr : out;

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "client/programs/tools/collisionctl/json_pages.h"
+#include "client/programs/tools/collisionctl/json/message_json.h"
 #include "idl/tree_message.h"
 
 namespace collision::client {
@@ -90,7 +90,7 @@ std::string LevelJson(const MeshTree& mesh_tree, std::uint32_t level) {
     ball->set_radius_m(node.radius);
     ball->set_signed_distance_m(node.signed_distance);
   }
-  return Json(message) + "\n";
+  return MessageJson(message) + "\n";
 }
 
 std::string TreeBinary(const MeshTree& mesh_tree) {

@@ -11,7 +11,7 @@
 
 #include "client/api/shape.h"
 #include "client/library/shape/core_mesh.h"
-#include "client/programs/tools/collisionctl/text_pages.h"
+#include "client/programs/tools/collisionctl/pages/text_pages.h"
 #include "collision_core/sphere_tree/tree_cut.h"
 
 namespace collision::client {

@@ -11,6 +11,12 @@
 
 namespace collision::client {
 
+inline void Extend(v1::ServiceStatus* status, const std::string& key, const std::string& value) {
+  v1::KeyValue* extension = status->add_extensions();
+  extension->set_key(key);
+  extension->set_value(value);
+}
+
 class CollisionctlTest : public testing::Test {
  protected:
   void Poll(std::size_t expected) {

@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "client/api/types.h"
-#include "client/programs/tools/collisionctl/json_pages.h"
-#include "client/programs/tools/collisionctl/status_page.h"
-#include "client/programs/tools/collisionctl/text_pages.h"
+#include "client/programs/tools/collisionctl/json/event_json.h"
+#include "client/programs/tools/collisionctl/json/world_json.h"
+#include "client/programs/tools/collisionctl/pages/text_pages.h"
+#include "client/programs/tools/collisionctl/status/status_page.h"
 #include "tests/client/fake_transport.h"
 #include "tests/client/programs/tools/collisionctl_fixture.h"
 
@@ -53,9 +54,10 @@ TEST_F(CollisionctlTest, ShapesPageShowsTheArrivedPartsOfEach) {
                                                       "   3       100000  2 of 3\n"));
   std::string digits = "01abcdef";
   for (int i = 0; i < 28; ++i) digits += "07";
-  EXPECT_EQ(ShapesJson(view_), "{\"shapes\":[{\"hash\":\"" + digits +
-                                   "\",\"simulator\":\"sim\",\"agents\":2,\"triangles\":12345,"
-                                   "\"solids\":3,\"bytes\":100000,\"parts\":3,\"parts_seen\":2}]}");
+  EXPECT_EQ(ShapesJson(view_),
+            "{\"schema\":\"collision/1\",\"kind\":\"shapes\",\"shapes\":[{\"hash\":\"" + digits +
+                "\",\"simulator\":\"sim\",\"agents\":2,\"triangles\":12345,"
+                "\"solids\":3,\"bytes\":100000,\"parts\":3,\"parts_seen\":2}]}");
   v1::ShapeRemoval* removal = next_.inputs.emplace_back().mutable_shape_removal();
   removal->set_simulator_id(5);
   removal->set_shape(9);
@@ -154,7 +156,7 @@ TEST_F(CollisionctlTest, NamesStayWhenAnotherRunComes) {
 TEST_F(CollisionctlTest, AWallClockReadsAsTheTimeOfDay) {
   Status()->set_now_ns(1'795'229'895'022'000'000);
   Poll(1);
-  EXPECT_NE(StatusPage(view_).find("now          02:58:15.022 UTC\n"), std::string::npos);
+  EXPECT_NE(StatusPage(view_).find(", now 02:58:15.022 UTC\n"), std::string::npos);
 }
 
 TEST_F(CollisionctlTest, EarliestPageNamesPairAndTime) {
@@ -198,20 +200,41 @@ TEST_F(CollisionctlTest, LostContactsAreToldInLinesOfTheirOwn) {
   *next_.outputs.emplace_back().mutable_collision_event() = OwnEvent(2, 1, 2);
   Poll(2);
   EXPECT_EQ(view_.contacts(), 1u);
-  EXPECT_EQ(MissedJson(2, 5), "{\"contacts_missed\":\"2\",\"contacts_missed_so_far\":\"5\"}");
+  EXPECT_NE(GapJson(2, 5).find("\"contacts_missed\":2,\"contacts_missed_so_far\":5}"),
+            std::string::npos);
   EXPECT_EQ(MissedLine(2, 5).rfind("contacts missed: 2 (5 so far)", 0), 0u);
   EXPECT_EQ(ContactsSummary(7, 5), "contacts told: 7, missed: 5");
 }
 
-TEST_F(CollisionctlTest, JsonHasTheNamesOfTheProto) {
+TEST_F(CollisionctlTest, JsonOfAnAgentSaysWhatIsNotKnown) {
   Describe("ball", 7, 0);
   Clear(7);
   Poll(2);
   const std::string json = AgentsJson(view_);
-  EXPECT_EQ(json.rfind("{\"agents\":[{\"description\":{\"simulator_id\":\"5\",", 0), 0u) << json;
-  EXPECT_NE(json.find("\"acceleration_max_m_s2\":7.9"), std::string::npos) << json;
-  EXPECT_EQ(json.find("\"state\":"), std::string::npos) << json;
-  EXPECT_NE(json.find("\"clearance\":{\"slot\":0,"), std::string::npos) << json;
+  for (const char* part :
+       {"\"agents\":[{\"name\":\"ball\",\"simulator\":\"sim\",\"simulator_id\":"
+        "\"0000000000000005\",\"run\":7,",
+        "\"acceleration_max_m_s2\":7.9,", "\"speed_max_m_s\":null,", "\"state\":null,",
+        "\"clearance\":{\"promised\":true,\"clear_until_ns\":null,\"clear_until_s\":null,"}) {
+    EXPECT_NE(json.find(part), std::string::npos) << part << json;
+  }
+}
+
+// An agent of which only its id has come has no name, and says so.
+TEST_F(CollisionctlTest, JsonOfAnAgentThatIsNotKnownHasNoName) {
+  v1::EarliestIntersection* earliest = next_.outputs.emplace_back().mutable_earliest_intersection();
+  earliest->set_found(true);
+  earliest->set_earliest_ns(kNever);
+  earliest->mutable_lower()->set_simulator_id(5);
+  earliest->mutable_lower()->set_run(7);
+  earliest->mutable_lower()->set_generation(1);
+  Describe("ball", 7, 0)->set_assembly("arm");
+  Poll(2);
+  const std::string json = EarliestJson(view_);
+  EXPECT_NE(json.find("\"lower\":{\"name\":\"ball\",\"simulator\":\"sim\","), std::string::npos)
+      << json;
+  EXPECT_NE(json.find("\"assembly\":\"arm\","), std::string::npos) << json;
+  EXPECT_NE(json.find("\"higher\":{\"name\":null,\"simulator\":null,"), std::string::npos) << json;
 }
 
 }  // namespace

@@ -86,11 +86,12 @@ TEST(OperatorRequest, EachCommandHasAnIdOfItsOwn) {
 
 // Goal:   a program learns whether it was obeyed, and why not, whatever the words are.
 TEST(OperatorJson, TellsDoneFromRefusedAndFromSilence) {
-  EXPECT_EQ(ResultJson({RequestOutcome::kDone, "done: simulator \"beta\" is removed"}),
-            R"({"done":true,"answer":"simulator \"beta\" is removed"})");
+  EXPECT_EQ(ResultJson({RequestOutcome::kDone, "done: \"beta\" is out"}),
+            R"({"schema":"collision/1","kind":"answer","done":true,"answer":"\"beta\" is out"})");
   EXPECT_EQ(ResultJson({RequestOutcome::kRefused, "refused: no simulator"}),
-            R"({"done":false,"answer":"no simulator"})");
-  EXPECT_EQ(ResultJson({RequestOutcome::kNoAnswer, ""}), R"({"done":false,"answer":null})");
+            R"({"schema":"collision/1","kind":"answer","done":false,"answer":"no simulator"})");
+  EXPECT_EQ(ResultJson({RequestOutcome::kNoAnswer, ""}),
+            R"({"schema":"collision/1","kind":"answer","done":false,"answer":null})");
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "client/programs/tools/sphere_tree/picture.h"
 #include "collision_core/sphere_tree/tree_check.h"
 #include "idl/tree_message.h"
+#include "tests/client/programs/tools/collisionctl/json/schema_check.h"
 
 namespace collision::client {
 namespace {
@@ -344,7 +345,12 @@ TEST_F(SphereTreeTool, StandardOutputHoldsOneDocument) {
   options.report = "json";
   options.picture = folder_ + "/ball.svg";
   v1::TreeReport report;
-  EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(RunTool(options).out, &report).ok());
+  const std::string out = RunTool(options).out;
+  EXPECT_TRUE(out.starts_with("{\"schema\":\"collision/1\",\"kind\":\"sphere-tree\",")) << out;
+  EXPECT_EQ(ComplaintsAbout({out.substr(0, out.find('\n'))}), "");
+  google::protobuf::util::JsonParseOptions ignore;
+  ignore.ignore_unknown_fields = true;
+  EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(out, &report, ignore).ok());
   EXPECT_LE(report.levels_size(), 3);
   EXPECT_TRUE(IsWellFormed(Contents(options.picture)));
   options.report.clear();

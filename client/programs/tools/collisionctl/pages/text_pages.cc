@@ -1,4 +1,4 @@
-#include "client/programs/tools/collisionctl/text_pages.h"
+#include "client/programs/tools/collisionctl/pages/text_pages.h"
 
 #include <algorithm>
 #include <cstdio>

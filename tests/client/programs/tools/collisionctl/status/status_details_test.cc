@@ -1,7 +1,6 @@
-// Goal:   one screen says how a world is: first what needs an operator, then services, simulators
-//         and counters.
+// Goal:   after the verdict stands everything that a status tells: services, simulators, counters.
 // Method: statuses by hand, through a monitor.
-#include "client/programs/tools/collisionctl/status_page.h"
+#include "client/programs/tools/collisionctl/status/status_details.h"
 
 #include <gtest/gtest.h>
 
@@ -10,15 +9,13 @@
 namespace collision::client {
 namespace {
 
-class StatusPageTest : public CollisionctlTest {};
+class StatusDetailsTest : public CollisionctlTest {};
 
-void Extend(v1::ServiceStatus* status, const std::string& key, const std::string& value) {
-  v1::KeyValue* extension = status->add_extensions();
-  extension->set_key(key);
-  extension->set_value(value);
+bool Contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
 }
 
-TEST_F(StatusPageTest, ShowsSimulatorsAndCounters) {
+TEST_F(StatusDetailsTest, ShowsSimulatorsAndCounters) {
   v1::ServiceStatus* status = Status();
   status->set_pairs_tracked(3);
   status->set_broad_phase("all pairs");
@@ -60,7 +57,9 @@ TEST_F(StatusPageTest, ShowsSimulatorsAndCounters) {
   Poll(3);
   EXPECT_TRUE(view_.knows_all_agents());
   EXPECT_EQ(
-      StatusPage(view_),
+      StatusDetails(view_),
+      "WELL: time is not held up, nothing has failed, nothing is refused\n"
+      "\n"
       "ROLE    SERVICE           PROCESS  VERSION  TERM  LEASE  AGENTS  NOW       CONFIGURATION\n"
       "serves  0000000000000001  -        0.1.0    2     -      1       12.345 s  -\n"
       "\n"
@@ -82,66 +81,35 @@ TEST_F(StatusPageTest, ShowsSimulatorsAndCounters) {
       "sim        7    yes    12.000 s  -        1       0       0\n");
 }
 
-TEST_F(StatusPageTest, SaysFirstThatTimeStandsAndForWhom) {
-  Status()->add_simulators()->set_name("one");
-  Poll(1);
-  EXPECT_EQ(StatusPage(view_).find("TIME STANDS"), std::string::npos);
+TEST_F(StatusDetailsTest, ListsWhoIsWaitedForAndNotThere) {
   v1::ServiceStatus* status = Status();
   status->add_simulators()->set_name("one");
   Extend(status, "waiting_for", "one, two, shape ab12");
-  Extend(status, "waiting_why", "one: not heard for more than 12 s, two: not back");
   Poll(1);
-  const std::string page = StatusPage(view_);
-  EXPECT_EQ(page.rfind("TIME STANDS  it waits for: one, two, shape ab12\n"
-                       "             one: not heard for more than 12 s\n"
-                       "             two: not back\n"
-                       "ROLE ",
-                       0),
-            0u)
-      << page;
+  const std::string page = StatusDetails(view_);
+  EXPECT_TRUE(page.starts_with("WAITS for one, two, shape ab12: ")) << page;
   const std::string row = "\ntwo        -    missing  -        -        -       -       -\n";
   EXPECT_EQ(page.substr(page.size() - row.size()), row) << "a shape is no simulator, one is listed";
 }
 
-// Goal:   one screen says first what has failed, then who takes more than its share.
-TEST_F(StatusPageTest, SaysWhatHasFailedAndWhoHarmsOthers) {
+TEST_F(StatusDetailsTest, ShowsTheWholeVerdictAndWhatHasHappened) {
   v1::ServiceStatus* status = Status();
-  Extend(status, "recording_failure", "/r: cannot be written, at byte 7");
-  Extend(status, "state_failure", "/j: read-only");
-  Extend(status, "quarantine", "1 refused, the last: that one");
-  Extend(status, "narrow_phase_held",
-         "bad (held to its share of 1/2 for 3 s; 9 pairs wait), worse");
-  Extend(status, "quotas", "guest: agents 20 of 20");
-  Extend(status, "flooding", "simulator \"bad\": 7 messages dropped; 3 wait; ignored for 9 s");
+  std::string names;
+  for (int i = 0; i < 20; ++i) names += (i == 0 ? "" : ", ") + std::to_string(i);
+  Extend(status, "waiting_for", names);
   Extend(status, "clock_step", "by +3.000000 s, to 9.000000 s");
   Extend(status, "evicted", "rogue");
   Extend(status, "removed_silent", "ghost");
   Poll(1);
-  v1::ServiceStatus* standby = Status();
-  standby->set_service_id(0xab);
-  standby->set_phase(v1::PHASE_STANDBY);
-  Extend(standby, "state_failure", "/k: full");
-  Poll(1);
-  const std::string page = StatusPage(view_);
-  EXPECT_TRUE(page.starts_with(
-      "RECORDING    /r: cannot be written, at byte 7\n"
-      "JOURNAL      /j: read-only\n"
-      "QUARANTINE   1 refused, the last: that one\n"
-      "JOURNAL      standby 00000000000000ab: /k: full\n"
-      "HELD BACK    bad (held to its share of 1/2 for 3 s; 9 pairs wait)\n"
-      "             worse\n"
-      "NEAR LIMIT   guest: agents 20 of 20\n"
-      "FLOODING     simulator \"bad\": 7 messages dropped; 3 wait; ignored for 9 s\n"
-      "ROLE "))
-      << page;
-  for (const char* line : {"\nclock set    by +3.000000 s, to 9.000000 s\n",
+  const std::string page = StatusDetails(view_);
+  for (const char* line : {"\n  19: let it go on", "\nclock set    by +3.000000 s, to 9.000000 s\n",
                            "\nevicted      rogue\n", "\nremoved      ghost\n"}) {
     EXPECT_NE(page.find(line), std::string::npos) << line << page;
   }
 }
 
 // Goal:   the services stand side by side, and one that is configured otherwise is marked.
-TEST_F(StatusPageTest, ShowsAllServicesInOneTable) {
+TEST_F(StatusDetailsTest, ShowsAllServicesInOneTable) {
   v1::ServiceStatus* serving = Status();
   serving->set_configuration(1);
   Extend(serving, "process", "pid 12 on host-a");
@@ -157,20 +125,22 @@ TEST_F(StatusPageTest, ShowsAllServicesInOneTable) {
     Extend(standby, "lease_s", "2");
   }
   Poll(3);
-  const std::string page = StatusPage(view_);
+  const std::string page = StatusDetails(view_);
   const std::string head = "VERSION  TERM  LEASE  AGENTS  NOW       CONFIGURATION\n";
-  EXPECT_TRUE(page.starts_with(
-      "ROLE            SERVICE           PROCESS           " + head +
-      "serves          0000000000000001  pid 12 on host-a  0.1.0    2     0.5 s  1       12.345 s  "
-      "-\n"
-      "standby, ready  0000000000000002  pid 7 on host-b   0.2.0    2     2 s    1       12.345 s  "
-      "the same\n"
-      "standby         0000000000000003  pid 7 on host-b   0.2.0    2     2 s    1       12.345 s  "
-      "OTHER\n"))
+  EXPECT_TRUE(Contains(page, "ROLE            SERVICE           PROCESS           " + head +
+                                 "serves          0000000000000001  pid 12 on host-a  0.1.0    2   "
+                                 "  0.5 s  1       12.345 s  "
+                                 "-\n"
+                                 "standby, ready  0000000000000002  pid 7 on host-b   0.2.0    2   "
+                                 "  2 s    1       12.345 s  "
+                                 "the same\n"
+                                 "standby         0000000000000003  pid 7 on host-b   0.2.0    2   "
+                                 "  2 s    1       12.345 s  "
+                                 "OTHER\n"))
       << page;
 }
 
-TEST_F(StatusPageTest, ShowsTheOffsetsOfClocksInAWorldOfTheWallClock) {
+TEST_F(StatusDetailsTest, ShowsTheOffsetsOfClocksInAWorldOfTheWallClock) {
   v1::ServiceStatus* status = next_.outputs.emplace_back().mutable_service_status();
   status->set_phase(v1::PHASE_SERVING);
   const auto add = [&](const char* name, std::int64_t lower_ns, std::int64_t upper_ns) {
@@ -184,7 +154,7 @@ TEST_F(StatusPageTest, ShowsTheOffsetsOfClocksInAWorldOfTheWallClock) {
   add("ahead", 5'000'000'000, kNever);
   add("silent", kNoLower, kNever);
   Poll(1);
-  const std::string page = StatusPage(view_);
+  const std::string page = StatusDetails(view_);
   for (const char* row : {"REJECTED  OFFSET\n", "-0.215 … +0.402 ms\n", "+5000.000 … ? ms\n"}) {
     EXPECT_NE(page.find(row), std::string::npos) << row << page;
   }

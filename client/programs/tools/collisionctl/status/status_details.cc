@@ -1,53 +1,19 @@
-#include "client/programs/tools/collisionctl/status_page.h"
+#include "client/programs/tools/collisionctl/status/status_details.h"
 
 #include <algorithm>
 #include <limits>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "client/api/event_text.h"
-#include "client/programs/tools/collisionctl/text_pages.h"
+#include "client/programs/tools/collisionctl/pages/text_pages.h"
+#include "client/programs/tools/collisionctl/status/status_fields.h"
+#include "client/programs/tools/collisionctl/status/verdict.h"
 #include "idl/identity.h"
 #include "idl/limits.h"
 
 namespace collision::client {
 namespace {
-
-constexpr std::size_t kLabelColumns = 13;
-
-std::string Line(const std::string& label, const std::string& text) {
-  return Padded(label, kLabelColumns) + text + "\n";
-}
-
-constexpr const char* kRejected = "rejected_";
-
-/// The counters of refusals, or all others; without those that are 0.
-std::string CountersText(const v1::ServiceStatus& status, bool rejections) {
-  std::string text;
-  for (const v1::Counter& counter : status.counters()) {
-    const bool is_rejection = counter.name().rfind(kRejected, 0) == 0;
-    if (counter.value() == 0 || is_rejection != rejections) continue;
-    const std::string name =
-        rejections ? counter.name().substr(std::string(kRejected).size()) : counter.name();
-    text += (text.empty() ? "" : ", ") + name + " " + std::to_string(counter.value());
-  }
-  return text.empty() ? "none" : text;
-}
-
-std::uint64_t CounterOf(const v1::ServiceStatus& status, const std::string& name) {
-  for (const v1::Counter& counter : status.counters()) {
-    if (counter.name() == name) return counter.value();
-  }
-  return 0;
-}
-
-std::string ExtensionOf(const v1::ServiceStatus& status, const std::string& key) {
-  for (const v1::KeyValue& extension : status.extensions()) {
-    if (extension.key() == key) return extension.value();
-  }
-  return "";
-}
 
 /// The number of queries to the broad phase, and of events that wait for their time.
 std::string QueriesText(const v1::ServiceStatus& status) {
@@ -99,27 +65,6 @@ std::string OffsetText(const v1::SimulatorStatus& simulator) {
   return end(has_lower, offset.earliest_ns()) + " … " + end(has_upper, offset.latest_ns()) + " ms";
 }
 
-/// The parts of a list in an extension: kListSeparator is between them.
-std::vector<std::string> Parts(const std::string& list) {
-  constexpr std::string_view kListSeparator = ", ";
-  std::vector<std::string> parts;
-  for (std::size_t from = 0; from < list.size();) {
-    const std::size_t to = std::min(list.find(kListSeparator, from), list.size());
-    parts.push_back(list.substr(from, to - from));
-    from = to + kListSeparator.size();
-  }
-  return parts;
-}
-
-/// For whom the world's time waits, and why, one a line; empty if it does not.
-std::string WaitingLines(const v1::ServiceStatus& status) {
-  const std::string names = ExtensionOf(status, "waiting_for");
-  if (names.empty()) return "";
-  std::string lines = Line("TIME STANDS", "it waits for: " + names);
-  for (const std::string& why : Parts(ExtensionOf(status, "waiting_why"))) lines += Line("", why);
-  return lines;
-}
-
 /// A row for each simulator that the world waits for and that is not listed: it has not come back
 /// to a service that started again. Only a name of a simulator is without a blank.
 void AddMissing(const v1::ServiceStatus& status, std::vector<std::vector<std::string>>* rows) {
@@ -155,43 +100,23 @@ struct Note {
   const char* key;
 };
 
-/// What has failed in a service.
-constexpr Note kFailures[] = {
-    {"RECORDING", "recording_failure"}, {"JOURNAL", "state_failure"}, {"QUARANTINE", "quarantine"}};
-
-/// Who takes more than its share: lists of simulators.
-constexpr Note kLoads[] = {
-    {"HELD BACK", "narrow_phase_held"}, {"NEAR LIMIT", "quotas"}, {"FLOODING", "flooding"}};
-
 constexpr Note kFacts[] = {
     {"clock set", "clock_step"}, {"evicted", "evicted"}, {"removed", "removed_silent"}};
 
 /// A line for each that the status has.
-template <std::size_t count>
-std::string Notes(const Note (&notes)[count], const v1::ServiceStatus& status,
-                  const std::string& before = "") {
+std::string Facts(const v1::ServiceStatus& status) {
   std::string lines;
-  for (const auto& [label, key] : notes) {
+  for (const auto& [label, key] : kFacts) {
     const std::string text = ExtensionOf(status, key);
-    if (!text.empty()) lines += Line(label, before + text);
+    if (!text.empty()) lines += Line(label, text);
   }
   return lines;
 }
 
-/// What an operator should look at first.
-std::string Troubles(const WorldView& view) {
-  const v1::ServiceStatus& status = *view.status();
-  std::string lines = WaitingLines(status) + Notes(kFailures, status);
-  for (const v1::ServiceStatus& standby : view.Standbys()) {
-    lines += Notes(kFailures, standby, "standby " + IdText(standby.service_id()) + ": ");
-  }
-  for (const auto& [label, key] : kLoads) {
-    std::string once = label;
-    for (const std::string& who : Parts(ExtensionOf(status, key))) {
-      lines += Line(std::exchange(once, ""), who);
-    }
-  }
-  return lines;
+std::string VerdictText(const WorldView& view) {
+  std::string text;
+  for (const std::string& line : Verdict(view)) text += line + "\n";
+  return text;
 }
 
 /// A row for the service in force and for each that stands by.
@@ -220,14 +145,14 @@ std::string ServicesTable(const WorldView& view) {
 
 }  // namespace
 
-std::string StatusPage(const WorldView& view) {
+std::string StatusDetails(const WorldView& view) {
   const v1::ServiceStatus& status = *view.status();
   std::string page =
-      Troubles(view) + ServicesTable(view) + "\n" + Line("world", status.world()) +
+      VerdictText(view) + "\n" + ServicesTable(view) + "\n" + Line("world", status.world()) +
       Line("clock", status.simulated_clock() ? "lock-step" : "real time") +
       (status.frame().empty() ? "" : Line("frame", status.frame())) +
       (status.epoch_utc().empty() ? "" : Line("epoch", status.epoch_utc())) +
-      Line("now", SinceText(status.now_ns())) + Notes(kFacts, status) +
+      Line("now", SinceText(status.now_ns())) + Facts(status) +
       Line("agents", std::to_string(status.agents()) + ", " +
                          std::to_string(status.pairs_tracked()) + " pairs tracked") +
       Line("earliest", EarliestText(view)) +

@@ -1,0 +1,128 @@
+#include "client/programs/tools/collisionctl/events/event_filter.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "client/library/network/conversion.h"
+
+namespace collision::client {
+namespace {
+
+/// a − b, kept within the range.
+std::int64_t Difference(std::int64_t a, std::int64_t b) {
+  std::int64_t difference = 0;
+  if (!__builtin_sub_overflow(a, b, &difference)) return difference;
+  return a > b ? kNever : std::numeric_limits<std::int64_t>::min();
+}
+
+bool IsCalled(const AgentId& id, const std::string& name, const WorldView& view) {
+  const std::string agent = view.Name(id);
+  return name == agent || name == view.SimulatorName(id.simulator) + ":" + agent;
+}
+
+}  // namespace
+
+std::optional<EventStatus> StatusOf(const std::string& name) {
+  for (const EventStatus status :
+       {EventStatus::kPossible, EventStatus::kConfirmed, EventStatus::kDismissed,
+        EventStatus::kUndecided, EventStatus::kWithdrawn, EventStatus::kEnded}) {
+    if (name == Name(status)) return status;
+  }
+  return std::nullopt;
+}
+
+std::int64_t LeadTime(const v1::CollisionEvent& event, std::int64_t now_ns) {
+  const std::int64_t begin_ns = event.begin().earliest_ns();
+  if (event.began_before()) return 0;
+  if (begin_ns == kNever) return kNever;
+  if (begin_ns > now_ns) return Difference(begin_ns, now_ns);
+  if (event.status() != v1::EVENT_POSSIBLE) return 0;
+  return std::max<std::int64_t>(0, Difference(begin_ns, event.now_ns()));
+}
+
+std::int64_t DistanceInTime(const v1::CollisionEvent& event, std::int64_t now_ns) {
+  const std::int64_t end_ns = event.end().latest_ns();
+  return end_ns < now_ns ? Difference(now_ns, end_ns) : LeadTime(event, now_ns);
+}
+
+bool IsOfEarlierEpoch(const v1::CollisionEvent& event, const WorldView& view) {
+  if (!view.status()) return false;
+  const v1::ServiceStamp& now = view.status()->stamp();
+  return event.stamp().service_id() == now.service_id() && event.stamp().epoch() < now.epoch();
+}
+
+std::int64_t NowOf(const v1::CollisionEvent& event, const WorldView& view) {
+  if (!view.status() || IsOfEarlierEpoch(event, view)) return event.now_ns();
+  return std::max(view.status()->now_ns(), event.now_ns());
+}
+
+std::vector<v1::CollisionEvent> EventSelection::Of(std::vector<v1::CollisionEvent> events,
+                                                   const WorldView& view) const {
+  std::erase_if(events, [&](const auto& event) { return !Fits(event, view); });
+  if (!filter_.top) return events;
+  const auto distance = [&view](const v1::CollisionEvent& event) {
+    return IsOfEarlierEpoch(event, view) ? kNever : DistanceInTime(event, NowOf(event, view));
+  };
+  std::stable_sort(events.begin(), events.end(),
+                   [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  if (events.size() > *filter_.top) events.resize(*filter_.top);
+  return events;
+}
+
+bool EventSelection::Takes(const v1::CollisionEvent& event, const WorldView& view) {
+  if (!Fits(event, view)) {
+    remembered_.erase(KeyOf(event));
+    return false;
+  }
+  return !filter_.top || IsNearest(event, NowOf(event, view));
+}
+
+bool EventSelection::IsNearest(const v1::CollisionEvent& event, std::int64_t now_ns) {
+  v1::CollisionEvent& kept = remembered_[KeyOf(event)];
+  kept = event;
+  kept.clear_lower_label();
+  kept.clear_higher_label();
+  const std::int64_t own = DistanceInTime(event, now_ns);
+  std::size_t nearer = 0;
+  std::int64_t farthest_ns = 0;
+  auto farthest = remembered_.begin();
+  for (auto one = remembered_.begin(); one != remembered_.end(); ++one) {
+    const std::int64_t distance = DistanceInTime(one->second, now_ns);
+    nearer += distance < own;
+    if (distance < farthest_ns) continue;
+    farthest_ns = distance;
+    farthest = one;
+  }
+  if (remembered_.size() > kRememberedMax) remembered_.erase(farthest);
+  return nearer < *filter_.top;
+}
+
+bool EventSelection::Fits(const v1::CollisionEvent& event, const WorldView& view) const {
+  const auto status = static_cast<EventStatus>(event.status());
+  const auto& statuses = filter_.statuses;
+  const bool any = statuses.empty();
+  if (!any && std::find(statuses.begin(), statuses.end(), status) == statuses.end()) return false;
+  return FitsInTime(event, view) && IsOfAgents(event, view);
+}
+
+bool EventSelection::FitsInTime(const v1::CollisionEvent& event, const WorldView& view) const {
+  if (!filter_.since_ns && !filter_.within_ns) return true;
+  if (IsOfEarlierEpoch(event, view)) return false;
+  const std::int64_t now_ns = NowOf(event, view);
+  if (filter_.since_ns && Difference(now_ns, event.now_ns()) > *filter_.since_ns) return false;
+  return !filter_.within_ns || LeadTime(event, now_ns) <= *filter_.within_ns;
+}
+
+bool EventSelection::IsOfAgents(const v1::CollisionEvent& event, const WorldView& view) const {
+  if (filter_.agents.empty()) return true;
+  const AgentId lower = FromMessage(event.lower()), higher = FromMessage(event.higher());
+  return std::any_of(filter_.agents.begin(), filter_.agents.end(), [&](const auto& name) {
+    return IsCalled(lower, name, view) || IsCalled(higher, name, view);
+  });
+}
+
+EventSelection::Key EventSelection::KeyOf(const v1::CollisionEvent& event) {
+  return {FromMessage(event.lower()), FromMessage(event.higher()), event.contact()};
+}
+
+}  // namespace collision::client

@@ -1,0 +1,170 @@
+#include "client/programs/tools/collisionctl/why/pair_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "client/library/network/conversion.h"
+#include "client/library/validation.h"
+#include "client/programs/tools/collisionctl/why/agent_lookup.h"
+#include "collision_core/intersection/earliest_intersection.h"
+
+namespace collision::client {
+namespace {
+
+Eigen::Vector3d ToCore(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// What decides about its path; both were validated.
+motion::SpaceTimeBound ToCore(const BoundReport& report, double skew) {
+  const v1::AgentDescription& description = report.agent.description;
+  const v1::AgentState& state = *report.agent.state;
+  motion::SpaceTimeBound bound;
+  bound.skew = skew;
+  bound.limits.radius = description.radius_m();
+  bound.limits.acceleration_max = description.acceleration_max_m_s2();
+  bound.limits.jerk_max = description.jerk_max_m_s3();
+  bound.limits.time_step = description.time_step_s();
+  if (description.speed_max_m_s() > 0) bound.limits.speed_max = description.speed_max_m_s();
+  bound.state.stamp = Instant::FromNanoseconds(state.stamp_ns());
+  bound.state.p_WA = ToCore(state.position_m());
+  bound.state.v_WA = ToCore(state.velocity_m_s());
+  bound.state.a_WA = ToCore(state.acceleration_m_s2());
+  bound.state.position_error = state.position_error_m();
+  bound.state.velocity_error = state.velocity_error_m_s();
+  bound.state.direction = ToCore(state.thrust_direction());
+  bound.state.direction_until = Instant::FromNanoseconds(state.direction_until_ns());
+  bound.state.expiry = Instant::FromNanoseconds(state.expiry_ns());
+  return bound;
+}
+
+/// Why nothing can be computed of the agent; empty: all can.
+std::string Unusable(const AgentView& agent) {
+  if (!(agent.description.radius_m() > 0)) return "nothing is known of it";
+  if (!agent.state) return "no state of it has come";
+  try {
+    Validate(FromMessage(agent.description).description);
+    Validate(FromMessage(*agent.state));
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
+  return 1e-9 * (static_cast<double>(to_ns) - static_cast<double>(from_ns));
+}
+
+/// The centre of its ball `s` seconds after its stamp.
+Eigen::Vector3d CentreAfter(double s, const v1::AgentState& state) {
+  return ToCore(state.position_m()) + s * ToCore(state.velocity_m_s()) +
+         0.5 * s * s * ToCore(state.acceleration_m_s2());
+}
+
+BoundReport BoundOf(const AgentView& agent, const PairReport& report, const WorldView& view) {
+  BoundReport bound{.agent = agent,
+                    .name = view.FullName(IdOf(agent)),
+                    .unusable = Unusable(agent),
+                    .now = {},
+                    .at_earliest = {},
+                    .fresh = {}};
+  if (!bound.unusable.empty()) return bound;
+  bound.age = Seconds(agent.state->stamp_ns(), report.now_ns);
+  bound.now = ReachAfter(std::max(0.0, bound.age), report.skew, agent.description, *agent.state);
+  return bound;
+}
+
+bool Lists(const google::protobuf::RepeatedPtrField<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Either lists the other.
+bool AreListed(const v1::AgentDescription& a, const v1::AgentDescription& b, bool never) {
+  return never ? Lists(a.never_meets(), b.agent_name()) || Lists(b.never_meets(), a.agent_name())
+               : Lists(a.meets_in_assembly(), b.agent_name()) ||
+                     Lists(b.meets_in_assembly(), a.agent_name());
+}
+
+void FindFilters(PairReport* report) {
+  const v1::AgentDescription& a = report->a.agent.description;
+  const v1::AgentDescription& b = report->b.agent.description;
+  if (a.simulator_id() == b.simulator_id()) {
+    if (AreListed(a, b, true)) report->apart.push_back("one lists the other in never_meets");
+    const bool together = !a.assembly().empty() && a.assembly() == b.assembly();
+    if (together && !AreListed(a, b, false)) {
+      report->apart.push_back("both are of assembly " + a.assembly() +
+                              ", and neither lists the other in meets_in_assembly");
+    }
+  }
+  for (const BoundReport* one : {&report->a, &report->b}) {
+    if (!IsHeld(one->agent)) {
+      report->apart.push_back("the service does not hold " + one->name);
+    }
+  }
+  if (!a.class_name().empty() && !b.class_name().empty()) {
+    report->not_told.push_back("whether class " + a.class_name() + " meets class " +
+                               b.class_name());
+  }
+  if (a.simulator_id() != b.simulator_id()) {
+    report->not_told.push_back("whether the configuration excludes the pair");
+  }
+}
+
+/// Distance, earliest time, and how far each can be by then.
+void Meet(PairReport* report) {
+  const motion::SpaceTimeBound a = ToCore(report->a, report->skew);
+  const motion::SpaceTimeBound b = ToCore(report->b, report->skew);
+  const v1::AgentState &state_a = *report->a.agent.state, &state_b = *report->b.agent.state;
+  const v1::AgentDescription& of_a = report->a.agent.description;
+  const v1::AgentDescription& of_b = report->b.agent.description;
+  report->distance =
+      (CentreAfter(report->a.age, state_a) - CentreAfter(report->b.age, state_b)).norm();
+  const double margin = of_a.margin_m() + of_b.margin_m();
+  report->gap = report->distance - of_a.radius_m() - of_b.radius_m() - margin -
+                report->a.now.Sum() - report->b.now.Sum();
+  const Instant now = Instant::FromNanoseconds(report->now_ns);
+  const Instant earliest =
+      intersection::EarliestIntersection(a, b, now, Instant::Never(), margin).instant();
+  report->earliest_ns = earliest.nanoseconds();
+  if (NeverMoves(a) && NeverMoves(b)) report->apart.push_back("neither can move");
+  if (earliest.is_never()) return;
+  for (BoundReport* one : {&report->a, &report->b}) {
+    const v1::AgentState& state = *one->agent.state;
+    const double elapsed = Seconds(state.stamp_ns(), *report->earliest_ns);
+    const double newest = std::min(elapsed, Seconds(report->now_ns, *report->earliest_ns));
+    one->at_earliest = ReachAfter(elapsed, report->skew, one->agent.description, state);
+    one->fresh = ReachAfter(newest, report->skew, one->agent.description, state);
+  }
+}
+
+}  // namespace
+
+Reach ReachAfter(double elapsed, double skew, const v1::AgentDescription& description,
+                 const v1::AgentState& state) {
+  const double sigma = elapsed + skew, step = description.time_step_s();
+  const double speed = ToCore(state.velocity_m_s()).norm();
+  const double known = ToCore(state.acceleration_m_s2()).norm();
+  Reach reach;
+  reach.position_error = state.position_error_m();
+  reach.velocity_error = state.velocity_error_m_s() * sigma;
+  reach.acceleration = 0.5 * description.acceleration_max_m_s2() * sigma * (sigma + step);
+  reach.jerk = description.jerk_max_m_s3() / 6 * sigma *
+               (sigma * sigma + 3 * step * sigma + 3 * step * step);
+  reach.skew = speed * skew + known * (skew + 0.5 * step) * sigma;
+  return reach;
+}
+
+PairReport ReportOn(const AgentView& a, const AgentView& b,
+                    const std::optional<v1::CollisionEvent>& event, const WorldView& view) {
+  PairReport report;
+  report.now_ns = view.status()->now_ns();
+  report.skew = 1e-9 * static_cast<double>(view.skew_max_ns());
+  report.event = event;
+  report.a = BoundOf(a, report, view);
+  report.b = BoundOf(b, report, view);
+  FindFilters(&report);
+  if (report.a.unusable.empty() && report.b.unusable.empty()) Meet(&report);
+  return report;
+}
+
+}  // namespace collision::client
