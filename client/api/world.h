@@ -30,7 +30,7 @@ struct WorldOptions {
   /// Label of the frame in which positions are told, at most 64 bytes; empty: not stated. A service
   /// whose world states another one is refused, and refuses this simulator.
   std::string frame = {};
-  bool lock_step = true;     ///< False: real time; stamps are since 1970, and nobody waits.
+  bool lock_step = true;  ///< False: real time; stamps are since 1970, and nobody waits.
   /// The first run that it tries; 0: tenths of a second since 2020 (UTC), modulo 2^32. Each start
   /// of a simulator has a higher run than the last: if the service has a higher one of an earlier
   /// start, this one takes the next after it.
@@ -200,7 +200,7 @@ class World {
   /// have other ids then. Empty: it does not wait.
   std::string waits_for_name() const;
 
-  /// The name of an agent of which this simulator has heard, its own or one of an event, also after
+  /// The name of an agent of this simulator, or of one that such an agent met in an event, also after
   /// it has left; else the id of its simulator and its slot: "5d0c8a8b6f6f1d2e:3".
   std::string Name(const AgentId& id) const;
 

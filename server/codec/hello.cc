@@ -24,7 +24,7 @@ v1::ServiceHello HelloOf(const v1::Config& config) {
   v1::ServiceHello hello;
   hello.set_wire_revision(wire::kWireRevision);
   hello.set_clock_kind(config.clock().kind() == v1::Clock::REAL_TIME ? v1::CLOCK_REAL_TIME
-                                                                : v1::CLOCK_LOCK_STEP);
+                                                                     : v1::CLOCK_LOCK_STEP);
   hello.set_skew_max_ns(std::llround(config.clock().skew_max_s() * kNanoseconds));
   hello.set_world(config.world().substr(0, wire::kNameMax));
   hello.set_frame(config.frame());

@@ -68,8 +68,8 @@ TEST(Container, TakesWorldAndDomainFromTheEnvironmentAndTheRestFromItsFile) {
 }
 
 TEST(Container, RefusesWhatTheDaemonRefuses) {
-  EXPECT_EQ(Container("no such world", "0").Serve("--check-config").status, 78);
-  EXPECT_EQ(Container("lab", "231").Serve("--check-config").status, 78);
+  EXPECT_EQ(Container("no such world", "0").Serve("--check-config").status, 2);
+  EXPECT_EQ(Container("lab", "231").Serve("--check-config").status, 2);
   EXPECT_EQ(Container("lab", "").Serve("--check-config").status, 78);
   EXPECT_EQ(Container("lab", "0", "/no/such/file").Serve("--check-config").status, 78);
 }

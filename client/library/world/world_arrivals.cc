@@ -238,9 +238,11 @@ Clearance World::Implementation::clearance(const AgentId& id) const {
 }
 
 void World::Implementation::Handle(const v1::CollisionEvent& event) {
-  names_.Hear(FromMessage(event.lower()), event.lower_label().agent_name());
-  names_.Hear(FromMessage(event.higher()), event.higher_label().agent_name());
   const bool own = IsOwn(event.lower()) || IsOwn(event.higher());
+  if (own) {
+    names_.Hear(FromMessage(event.lower()), event.lower_label().agent_name());
+    names_.Hear(FromMessage(event.higher()), event.higher_label().agent_name());
+  }
   if (lock_step_ && event.contacts_sequence() == 0) {
     forecasts_.Hear(event);
     if (own && IsForecast(event.status())) forecasts_.Hold(event);

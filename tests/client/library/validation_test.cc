@@ -47,10 +47,9 @@ void CheckLimits(const Value& good, const std::string& field, double least, doub
 }
 
 TEST(Validation, AssemblyAndTagsAreShortAndKeysDiffer) {
-  const AgentDescription good{
-      .name = "ball",
-      .assembly = std::string(kNameMax, 'x'),
-      .tags = std::vector<Tag>(1, {std::string(wire::kTagKeyMax, 'k'), std::string(64, 'v')})};
+  AgentDescription good = Point();
+  good.assembly = std::string(kNameMax, 'x');
+  good.tags.push_back({std::string(wire::kTagKeyMax, 'k'), std::string(64, 'v')});
   EXPECT_EQ(Complaint(good), "");
   const auto complaint = [&good](const std::function<void(AgentDescription*)>& spoil) {
     AgentDescription bad = good;
@@ -84,19 +83,22 @@ TEST(Validation, DescriptionsAreLimited) {
 }
 
 TEST(Validation, MarginsAreNoneOrNotTooSmall) {
-  for (const double margin : {0.0, 1e-6, kRadiusMax}) {
-    EXPECT_EQ(Complaint(AgentDescription{.name = "ball", .margin_m = margin}), "") << margin;
-  }
-  EXPECT_EQ(Complaint(AgentDescription{.name = "ball", .margin_m = 1e-7}),
-            "margin_m: 1e-07, allowed: 0, or 1e-06 to 1e+12");
+  const auto complaint = [](double margin) {
+    AgentDescription description = Point();
+    description.margin_m = margin;
+    return Complaint(description);
+  };
+  for (const double margin : {0.0, 1e-6, kRadiusMax}) EXPECT_EQ(complaint(margin), "") << margin;
+  EXPECT_EQ(complaint(1e-7), "margin_m: 1e-07, allowed: 0, or 1e-06 to 1e+12");
   for (const double margin : {-1e-6, kNaN, kInfinity}) {
-    EXPECT_NE(Complaint(AgentDescription{.name = "ball", .margin_m = margin}), "") << margin;
+    EXPECT_EQ(complaint(margin).rfind("margin_m: ", 0), 0u) << margin;
   }
 }
 
 TEST(Validation, PartnersAreLimited) {
   const auto complaint = [](const std::function<void(AgentDescription*)>& set) {
-    AgentDescription description{.name = "link"};
+    AgentDescription description = Point();
+    description.name = "link";
     set(&description);
     return Complaint(description);
   };
@@ -111,7 +113,8 @@ TEST(Validation, PartnersAreLimited) {
   const std::string others = ", allowed: names of other agents of this simulator";
   EXPECT_EQ(complaint([](D* d) { d->meets_in_assembly = {"link"}; }),
             "meets_in_assembly: \"link\"" + others);
-  EXPECT_EQ(complaint([](D* d) { d->never_meets = {""}; }), "never_meets: \"\"" + others);
+  EXPECT_EQ(complaint([](D* d) { d->never_meets = {""}; }),
+            "never_meets: \"\", allowed: 1 to 64 bytes");
   EXPECT_EQ(complaint([](D* d) { d->never_meets.assign(17, "a"); }),
             "never_meets: 17 names, allowed: at most 16");
   EXPECT_EQ(complaint([](D* d) { d->never_meets = d->meets_in_assembly = {"a"}; }),

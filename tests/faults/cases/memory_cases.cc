@@ -27,6 +27,9 @@ constexpr std::int64_t kLap = 10 * kSecond;
 /// What a client remembers of a pair: a node of RevisionFilter's map.
 constexpr std::int64_t kRememberedPair = 160;
 
+/// What a World remembers of an agent: a node of AgentNames' map, with a short name.
+constexpr std::int64_t kRememberedName = 96;
+
 /// Laps from `first` up to, not including, `end`. The way back to the beginning of one is a jump.
 Motion InLaps(const Motion& lap, int first, int end) {
   Motion motion;
@@ -155,7 +158,7 @@ class Laps {
     Sum& sum = sums_[lap];
     ++sum.samples;
     sum.bytes[1] += scene_.heap(Owner::kServices).live;
-    sum.bytes[2] += scene_.heap(Owner::kClients).live - kRememberedPair * Remembered();
+    sum.bytes[2] += scene_.heap(Owner::kClients).live - Remembered();
     scene_.network().After(10 * kMillisecond, [this] { Sample(); });
   }
 
@@ -183,9 +186,9 @@ class Laps {
     return visitor;
   }
 
-  /// Pairs of which the programs that live were told.
+  /// Bytes for the pairs of which the programs that live were told, and for names.
   std::int64_t Remembered() {
-    std::int64_t all = 0;
+    std::int64_t pairs = 0, names = 0;
     const auto simulators = scene_.simulators();
     told_.resize(simulators.size() + 1);
     Told& monitor = told_[0];
@@ -193,16 +196,23 @@ class Laps {
     for (; monitor.heard < events.size(); ++monitor.heard) {
       monitor.pairs.insert(PairOf(client::FromMessage(events[monitor.heard].event)));
     }
-    all += std::ssize(monitor.pairs);
+    pairs += std::ssize(monitor.pairs);
     for (std::size_t i = 0; i < simulators.size(); ++i) {
       Told& told = told_[i + 1];
       const auto& heard = simulators[i]->heard();
       for (; told.heard < heard.size(); ++told.heard) {
-        told.pairs.insert(PairOf(heard[told.heard].event));
+        const client::Event& event = heard[told.heard].event;
+        told.pairs.insert(PairOf(event));
+        told.agents.insert({event.lower, event.higher});
       }
-      if (simulators[i]->connected()) all += std::ssize(told.pairs);
+      for (const Flown& own : simulators[i]->flown()) {
+        if (own.added_ns) told.agents.insert(own.id);
+      }
+      if (!simulators[i]->connected()) continue;
+      pairs += std::ssize(told.pairs);
+      names += std::ssize(told.agents);
     }
-    return all;
+    return kRememberedPair * pairs + kRememberedName * names;
   }
 
   using Pair = std::pair<client::AgentId, client::AgentId>;
@@ -211,6 +221,7 @@ class Laps {
   struct Told {
     std::size_t heard = 0;
     std::set<Pair> pairs;
+    std::set<client::AgentId> agents;
   };
 
   const Tour tour_;

@@ -111,7 +111,11 @@ class CrowdRun {
   }
 
  private:
-  static std::string Path() { return testing::TempDir() + "robots_test.motion"; }
+  /// Of each test its own: they run beside each other.
+  static std::string Path() {
+    return testing::TempDir() + "robots_test_" +
+           testing::UnitTest::GetInstance()->current_test_info()->name() + ".motion";
+  }
   std::size_t Agents() const { return robots_.size() * options_.limits.links; }
   static std::string NameOf(std::size_t robot, std::size_t link) {
     return RobotName(robot) + "/" + std::to_string(link);
