@@ -200,8 +200,8 @@ class World {
   /// have other ids then. Empty: it does not wait.
   std::string waits_for_name() const;
 
-  /// The name of an agent of this simulator, or of one that such an agent met in an event, also after
-  /// it has left; else the id of its simulator and its slot: "5d0c8a8b6f6f1d2e:3".
+  /// The name of an agent of this simulator, or of one that it has met in an event, also after it
+  /// has left; else the id of its simulator and its slot: "5d0c8a8b6f6f1d2e:3".
   std::string Name(const AgentId& id) const;
 
   /// Why nothing counts any more that this simulator sends: an operator has evicted it, or has

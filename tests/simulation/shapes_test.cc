@@ -21,8 +21,8 @@ struct Golden {
   v1::Config::TreeBuilder builder;
   std::uint64_t hash;
 };
-constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0x9cec7ca8e910784c},
-                              {v1::Config::FITTED, 0xa8c2acd7f0222fda}};
+constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0x7278b3b7bd3165f5},
+                              {v1::Config::FITTED, 0xd4c53de07efd600e}};
 
 constexpr std::int64_t kEnd = 8 * kSecond;
 
