@@ -17,9 +17,7 @@ int main() {
   Agent ada = world.AddAgent(ball, At(0, -10, 2));
   ball.name = "bob";
   Agent bob = world.AddAgent(ball, At(0, 10, -2));
-  const auto name = [&](const AgentId& id) {
-    return id == ada.id() ? "ada" : id == bob.id() ? "bob" : "somebody else's";
-  };
+  const auto name = [&](const AgentId& id) { return world.Name(id); };
   world.OnEvent([&](const Event& event) { std::puts(EventLine(event, name, 0).c_str()); });
   for (std::int64_t t = 0; t <= 10'000'000'000; t += 100'000'000) {
     ada.SetState(At(t, -10, 2));

@@ -8,6 +8,7 @@
 #include "client/programs/shared/stop_signal.h"
 #include "client/programs/simulators/drones/drone_ships.h"
 #include "client/programs/simulators/motion/motion_options.h"
+#include "client/programs/simulators/motion/simulator_run.h"
 
 namespace collision::client {
 namespace {
@@ -34,18 +35,6 @@ void AddFlightOptions(CLI::App* app, DroneShipOptions* options) {
   AddStepOptions(app, &options->rate_hz, &options->state_every);
 }
 
-int Run(const SimulatorOptions& simulator, const DroneShipOptions& options) {
-  MotionLog log(simulator.motion_log);
-  Pace pace(simulator);
-  DroneShips flight(options, &pace, &log);
-  flight.Fly();
-  log.Close();
-  std::printf("%zu bounces\n", flight.bounces());
-  pace.ReportTraffic();
-  pace.CheckRefusals();
-  return kExitOk;
-}
-
 }  // namespace
 }  // namespace collision::client
 
@@ -61,16 +50,17 @@ int main(int argc, char** argv) {
       "Flies drone ships under random forces and torques in a world of the collision service.",
       "drone-ships");
   AddFlightOptions(&app, &options);
-  app.add_option("--seconds", simulator.seconds, "Length of the run")
-      ->required()
-      ->check(Finite(kRunSecondsMax, false));
   AddMeshOptions(&app, &mesh);
-  AddSimulatorOptions(&app, &simulator);
+  AddRunOptions(&app, &simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   if (app.count("--box") == 0) options.limits.box_m = BoxFor(options.first + options.drones);
   CatchStopSignals();
   return RunProgram("drone-ships", [&] {
     options.shape = LoadAgentShape(mesh);
-    return Run(simulator, options);
+    return RunSimulator(simulator, [&](Pace* pace, MotionLog* log) {
+      DroneShips flight(options, pace, log);
+      flight.Fly();
+      std::printf("%zu bounces\n", flight.bounces());
+    });
   });
 }

@@ -7,6 +7,7 @@
 #include "client/programs/shared/stop_signal.h"
 #include "client/programs/simulators/drones/swarm.h"
 #include "client/programs/simulators/motion/motion_options.h"
+#include "client/programs/simulators/motion/simulator_run.h"
 
 int main(int argc, char** argv) {
   using namespace collision::client;
@@ -41,10 +42,7 @@ int main(int argc, char** argv) {
                  "Number of places between which the drones fly; many spread the drones out")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  app.add_option("--seconds", simulator.seconds, "Length of the run")
-      ->required()
-      ->check(Finite(kRunSecondsMax, false));
-  AddSimulatorOptions(&app, &simulator);
+  AddRunOptions(&app, &simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   if (static_cast<double>(swarm.force_every) > kForceHeldMax * swarm.rate_hz * (1 + 1e-9)) {
     std::fprintf(stderr,
@@ -54,14 +52,10 @@ int main(int argc, char** argv) {
   }
   CatchStopSignals();
   return RunProgram("drone-swarm", [&] {
-    MotionLog log(simulator.motion_log);
-    Pace pace(simulator);
-    Swarm flight(swarm, &pace, &log);
-    flight.Fly();
-    log.Close();
-    std::printf("%zu bounces\n", flight.bounces());
-    pace.ReportTraffic();
-    pace.CheckRefusals();
-    return static_cast<int>(kExitOk);
+    return RunSimulator(simulator, [&](Pace* pace, MotionLog* log) {
+      Swarm flight(swarm, pace, log);
+      flight.Fly();
+      std::printf("%zu bounces\n", flight.bounces());
+    });
   });
 }

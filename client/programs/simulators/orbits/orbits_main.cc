@@ -5,6 +5,7 @@
 #include "client/library/validation.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/stop_signal.h"
+#include "client/programs/simulators/motion/simulator_run.h"
 #include "client/programs/simulators/orbits/orbits.h"
 
 namespace collision::client {
@@ -49,19 +50,6 @@ void AddOrbitOptions(CLI::App* app, OrbitsOptions* options) {
       ->default_str("always");
 }
 
-int Run(const SimulatorOptions& simulator, OrbitsOptions options) {
-  options.constellation.seconds = simulator.seconds;
-  MotionLog log(simulator.motion_log);
-  Pace pace(simulator);
-  Orbits orbits(options, &pace, &log);
-  orbits.PrintBounds();
-  orbits.Fly();
-  log.Close();
-  pace.ReportTraffic();
-  pace.CheckRefusals();
-  return kExitOk;
-}
-
 }  // namespace
 }  // namespace collision::client
 
@@ -71,11 +59,15 @@ int main(int argc, char** argv) {
   OrbitsOptions options;
   CLI::App app("Moves satellites in low orbit in a world of the collision service.", "orbits");
   AddOrbitOptions(&app, &options);
-  app.add_option("--seconds", simulator.seconds, "Length of the run")
-      ->required()
-      ->check(Finite(kRunSecondsMax, false));
-  AddSimulatorOptions(&app, &simulator);
+  AddRunOptions(&app, &simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   CatchStopSignals();
-  return RunProgram("orbits", [&] { return Run(simulator, options); });
+  options.constellation.seconds = simulator.seconds;
+  return RunProgram("orbits", [&] {
+    return RunSimulator(simulator, [&](Pace* pace, MotionLog* log) {
+      Orbits orbits(options, pace, log);
+      orbits.PrintBounds();
+      orbits.Fly();
+    });
+  });
 }

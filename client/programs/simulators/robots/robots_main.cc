@@ -4,6 +4,7 @@
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/stop_signal.h"
 #include "client/programs/simulators/motion/motion_options.h"
+#include "client/programs/simulators/motion/simulator_run.h"
 #include "client/programs/simulators/robots/robots.h"
 
 namespace collision::client {
@@ -39,17 +40,6 @@ void AddRobotOptions(CLI::App* app, RobotOptions* options) {
       ->capture_default_str();
 }
 
-int Run(const SimulatorOptions& simulator, const RobotOptions& options) {
-  MotionLog log(simulator.motion_log);
-  Pace pace(simulator);
-  Robots robots(options, &pace, &log);
-  robots.Move();
-  log.Close();
-  pace.ReportTraffic();
-  pace.CheckRefusals();
-  return kExitOk;
-}
-
 }  // namespace
 }  // namespace collision::client
 
@@ -62,11 +52,11 @@ int main(int argc, char** argv) {
   options.limits.base.acceleration_max_m_s2 = 4;
   CLI::App app("Moves robots of several links in a world of the collision service.", "robots");
   AddRobotOptions(&app, &options);
-  app.add_option("--seconds", simulator.seconds, "Length of the run")
-      ->required()
-      ->check(Finite(kRunSecondsMax, false));
-  AddSimulatorOptions(&app, &simulator);
+  AddRunOptions(&app, &simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   CatchStopSignals();
-  return RunProgram("robots", [&] { return Run(simulator, options); });
+  return RunProgram("robots", [&] {
+    return RunSimulator(simulator,
+                        [&](Pace* pace, MotionLog* log) { Robots(options, pace, log).Move(); });
+  });
 }

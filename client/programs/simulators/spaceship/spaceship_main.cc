@@ -9,6 +9,7 @@
 #include "client/programs/shared/stop_signal.h"
 #include "client/programs/shared/terminal.h"
 #include "client/programs/simulators/motion/motion_options.h"
+#include "client/programs/simulators/motion/simulator_run.h"
 #include "client/programs/simulators/spaceship/spaceship.h"
 
 namespace collision::client {
@@ -30,22 +31,17 @@ void AddFlightOptions(CLI::App* app, SpaceshipOptions* options, bool* autopilot)
 }
 
 int Run(const SimulatorOptions& simulator, const SpaceshipOptions& options, bool person) {
-  MotionLog log(simulator.motion_log);
-  Pace pace(simulator);
-  std::optional<SpaceshipScreen> screen;
-  if (person) screen.emplace(simulator.world, simulator.domain);
-  std::size_t bounces = 0;
-  {
-    Spaceship flight(options, &pace, &log, person ? &*screen : nullptr);
-    flight.Fly();
-    bounces = flight.bounces();
-  }
-  log.Close();
-  screen.reset();  // restores the terminal
-  std::printf("%zu bounces\n", bounces);
-  pace.ReportTraffic();
-  pace.CheckRefusals();
-  return kExitOk;
+  return RunSimulator(simulator, [&](Pace* pace, MotionLog* log) {
+    std::size_t bounces = 0;
+    {
+      std::optional<SpaceshipScreen> screen;  // restores the terminal when it goes
+      if (person) screen.emplace(simulator.world, simulator.domain);
+      Spaceship flight(options, pace, log, person ? &*screen : nullptr);
+      flight.Fly();
+      bounces = flight.bounces();
+    }
+    std::printf("%zu bounces\n", bounces);
+  });
 }
 
 }  // namespace
@@ -62,11 +58,8 @@ int main(int argc, char** argv) {
       "(h shows the keys, q ends), or by a script.",
       "spaceship");
   AddFlightOptions(&app, &options, &autopilot);
-  app.add_option("--seconds", simulator.seconds, "Longest run")
-      ->required()
-      ->check(Finite(kRunSecondsMax, false));
   AddMeshOptions(&app, &mesh);
-  AddSimulatorOptions(&app, &simulator);
+  AddRunOptions(&app, &simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   const bool person = !autopilot && HasTerminal();
   // A person flies in real time.

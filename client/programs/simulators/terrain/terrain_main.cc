@@ -3,6 +3,7 @@
 #include "client/library/validation.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/stop_signal.h"
+#include "client/programs/simulators/motion/simulator_run.h"
 #include "client/programs/simulators/terrain/terrain.h"
 
 int main(int argc, char** argv) {
@@ -25,19 +26,11 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(-kTerrainSizeMax, kTerrainSizeMax))
       ->capture_default_str();
   app.add_option("--seed", terrain.seed, "Seed of the hills")->capture_default_str();
-  app.add_option("--seconds", simulator.seconds, "Length of the run")
-      ->required()
-      ->check(Finite(kRunSecondsMax, false));
-  AddSimulatorOptions(&app, &simulator);
+  AddRunOptions(&app, &simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   CatchStopSignals();
   return RunProgram("terrain", [&] {
-    MotionLog log(simulator.motion_log);
-    Pace pace(simulator);
-    ServeTerrain(terrain, &pace, &log);
-    log.Close();
-    pace.ReportTraffic();
-    pace.CheckRefusals();
-    return static_cast<int>(kExitOk);
+    return RunSimulator(simulator,
+                        [&](Pace* pace, MotionLog* log) { ServeTerrain(terrain, pace, log); });
   });
 }

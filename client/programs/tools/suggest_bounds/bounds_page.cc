@@ -2,7 +2,8 @@
 
 #include <cmath>
 #include <cstdio>
-#include <utility>
+
+#include "client/programs/tools/collisionctl/json/json_writer.h"
 
 namespace collision::client {
 namespace {
@@ -11,29 +12,6 @@ std::string Short(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", value);
   return text;
-}
-
-std::string Exactly(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-      quoted += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      char code[8];
-      std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
-      quoted += code;
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + "\"";
 }
 
 std::string NameIn(const SuggestedBounds& bounds) {
@@ -69,20 +47,26 @@ std::string BasisText(const SuggestedBounds& bounds, const BoundsRequest& reques
 
 std::string AgentJson(const SuggestedBounds& bounds) {
   const auto& angular = bounds.angular_acceleration_max_rad_s2;
-  std::string json =
-      "{\"simulator\":" + Quoted(bounds.simulator) + ",\"agent\":" + Quoted(bounds.name) +
-      ",\"states\":" + std::to_string(bounds.samples) + ",\"basis\":\"" +
-      (bounds.is_proof ? "proof" : "estimate") +
-      "\",\"acceleration_max_m_s2\":" + Exactly(bounds.acceleration_max_m_s2) +
-      ",\"known\":{\"acceleration_max_m_s2\":" + Exactly(bounds.deviation_max_m_s2) +
-      ",\"jerk_max_m_s3\":" + Exactly(bounds.jerk_max_m_s3) +
-      ",\"narrower\":" + (bounds.known_is_narrower ? "true" : "false") +
-      "},\"speed_max_m_s\":" + Exactly(bounds.speed_max_m_s) +
-      ",\"angular_acceleration_max_rad_s2\":" + (angular ? Exactly(*angular) : "null");
-  if (!bounds.declared) return json + ",\"declared\":null}";
-  return json + ",\"declared\":{\"acceleration_max_m_s2\":" +
-         Exactly(bounds.declared->acceleration_max_m_s2) +
-         ",\"jerk_max_m_s3\":" + Exactly(bounds.declared->jerk_max_m_s3) + "}}";
+  JsonObject json;
+  json.TextOrNull("simulator", bounds.simulator)
+      .TextOrNull("name", bounds.name)
+      .Count("states", bounds.samples)
+      .Text("basis", bounds.is_proof ? "proof" : "estimate")
+      .Number("acceleration_max_m_s2", bounds.acceleration_max_m_s2)
+      .Add("known", JsonObject()
+                        .Number("acceleration_max_m_s2", bounds.deviation_max_m_s2)
+                        .Number("jerk_max_m_s3", bounds.jerk_max_m_s3)
+                        .Flag("narrower", bounds.known_is_narrower)
+                        .Json())
+      .Number("speed_max_m_s", bounds.speed_max_m_s)
+      .Add("angular_acceleration_max_rad_s2", angular ? JsonNumber(*angular) : "null");
+  if (!bounds.declared) return json.Null("declared").Json();
+  return json
+      .Add("declared", JsonObject()
+                           .Number("acceleration_max_m_s2", bounds.declared->acceleration_max_m_s2)
+                           .Number("jerk_max_m_s3", bounds.declared->jerk_max_m_s3)
+                           .Json())
+      .Json();
 }
 
 }  // namespace
@@ -120,14 +104,18 @@ std::string BoundsPage(const BoundsSource& source, const std::vector<SuggestedBo
 
 std::string BoundsJson(const BoundsSource& source, const std::vector<SuggestedBounds>& all,
                        const BoundsRequest& request) {
-  std::string json = "{\"source\":" + Quoted(source.name) + ",\"kind\":" + Quoted(source.kind) +
-                     ",\"quantile\":" + Exactly(request.quantile) +
-                     ",\"margin\":" + Exactly(all.front().is_proof ? 0 : request.margin) +
-                     ",\"look_ahead_s\":" + Exactly(request.look_ahead_s) + ",\"agents\":[";
-  const char* separator = "";
-  for (const SuggestedBounds& bounds : all)
-    json += std::exchange(separator, ",") + AgentJson(bounds);
-  return json + "],\"all\":" + AgentJson(GreatestOf(all, request.look_ahead_s)) + "}\n";
+  std::vector<std::string> agents;
+  for (const SuggestedBounds& bounds : all) agents.push_back(AgentJson(bounds));
+  return JsonDocument("bounds")
+             .Text("source", source.name)
+             .Text("source_kind", source.kind)
+             .Number("quantile", request.quantile)
+             .Number("margin", all.front().is_proof ? 0 : request.margin)
+             .Number("look_ahead_s", request.look_ahead_s)
+             .Add("agents", JsonArray(agents))
+             .Add("all", AgentJson(GreatestOf(all, request.look_ahead_s)))
+             .Json() +
+         "\n";
 }
 
 }  // namespace collision::client

@@ -21,11 +21,7 @@ std::string RoundedUpText(double value);
 std::string BoundsPage(const BoundsSource& source, const std::vector<SuggestedBounds>& all,
                        const BoundsRequest& request);
 
-/// One line: {"source", "kind", "quantile", "margin", "look_ahead_s", "agents": [{"simulator",
-/// "agent", "states", "basis": "proof" or "estimate", "acceleration_max_m_s2", "known": {
-/// "acceleration_max_m_s2", "jerk_max_m_s3", "narrower"}, "speed_max_m_s",
-/// "angular_acceleration_max_rad_s2": number or null, "declared": {...} or null}, ...], "all": the
-/// greatest of each}.
+/// One document of kind "bounds" (collisionctl/json/schema.json), and a newline.
 std::string BoundsJson(const BoundsSource& source, const std::vector<SuggestedBounds>& all,
                        const BoundsRequest& request);
 

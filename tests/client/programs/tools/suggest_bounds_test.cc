@@ -14,6 +14,7 @@
 #include "client/programs/tools/suggest_bounds/command.h"
 #include "client/programs/tools/suggest_bounds/motion_file.h"
 #include "idl/recording.pb.h"
+#include "tests/client/programs/tools/collisionctl/json/schema_check.h"
 #include "tests/support/random.h"
 
 namespace collision::client {
@@ -251,10 +252,12 @@ TEST(BoundsPage, TellsEachAgentAndAll) {
   EXPECT_NE(page.find("\nsim/swing "), std::string::npos);
   EXPECT_NE(page.find("\nall "), std::string::npos);
   const std::string json = BoundsJson({"run.rec", "recording"}, all, {});
-  EXPECT_NE(json.find("\"agent\":\"the \\\"fast\\\" one\",\"states\":20,\"basis\":\"estimate\""),
+  EXPECT_EQ(json.back(), '\n');
+  EXPECT_NE(json.find("\"name\":\"the \\\"fast\\\" one\",\"states\":20,\"basis\":\"estimate\""),
             std::string::npos);
-  EXPECT_NE(json.find("\"all\":{\"simulator\":\"\",\"agent\":\"\",\"states\":40"),
+  EXPECT_NE(json.find("\"all\":{\"simulator\":null,\"name\":null,\"states\":40"),
             std::string::npos);
+  EXPECT_EQ(ComplaintsAbout({json.substr(0, json.size() - 1)}), "");
   EXPECT_GT(GreatestOf(all, 2).speed_max_m_s, 33);
 }
 
