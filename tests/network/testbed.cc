@@ -216,7 +216,10 @@ void Testbed::AwaitPrinted() {
     newest = std::max(newest, event.contacts_sequence());
   }
   if (newest == 0) return;
-  process(kMonitor).WaitForOutput("\"contacts_sequence\":\"" + std::to_string(newest) + "\"");
+  const std::string last = "\"contacts_sequence\":" + std::to_string(newest) + ",";
+  if (!process(kMonitor).WaitForOutput(last)) {
+    throw std::runtime_error("the monitor did not print " + last + Logs());
+  }
 }
 
 Flown Testbed::FinishNow() {
