@@ -105,6 +105,15 @@ class StatusInStep {
   Time due_ = std::chrono::steady_clock::now() + period_;
 };
 
+void LogStart(const v1::Config& config, const ClaimOptions& claim, bool has_journal) {
+  spdlog::info("collisiond {}, service {} ({}), claims world \"{}\" on domain {}", Version(),
+               IdText(claim.instance), ProcessText(), config.world(), config.domain());
+  spdlog::info("network profile: {}", NetworkProfile());
+  if (!has_journal) spdlog::info("no journal: nothing is kept for the next start");
+  spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and evaluation",
+               config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerEvaluation(config));
+}
+
 std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   SystemClock clock([&bus] { bus.Wake(); });
   RecordingWriter* const recorder = parts.recorder;
@@ -129,12 +138,7 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
   const StopSignalWatcher signals(
       [&daemon] { daemon.Stop(); }, kStepPatience,
       [recorder, quarantine = parts.quarantine] { EndInTheStep(recorder, quarantine); });
-  spdlog::info("collisiond {}, service {} ({}), claims world \"{}\" on domain {}", Version(),
-               IdText(parts.claim.instance), ProcessText(), config.world(), config.domain());
-  spdlog::info("network profile: {}", NetworkProfile());
-  if (!has_journal) spdlog::info("no journal: nothing is kept for the next start");
-  spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and evaluation",
-               config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerEvaluation(config));
+  LogStart(config, parts.claim, has_journal);
   WaitForWallClock(config, signals, &service_manager);
   bool ready = false;
   while (daemon.Step()) {

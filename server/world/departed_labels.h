@@ -22,10 +22,10 @@ class DepartedLabels {
   static constexpr std::size_t kDepartedMax = 65536;
 
   /// The agent is told of up to `until`.
-  void Add(const detection::AgentId& id, std::shared_ptr<const v1::AgentLabel> label,
+  void Add(const detection::AgentId& id, const std::shared_ptr<const v1::AgentLabel>& label,
            Instant until) {
     if (labels_.size() >= kDepartedMax) return;
-    if (labels_.try_emplace(id, std::move(label)).second) queue_.emplace(until, id);
+    if (labels_.try_emplace(id, label).second) queue_.emplace(until, id);
   }
 
   /// Null: it is not kept.

@@ -329,6 +329,34 @@ void AddViews(CLI::App* app, Options* options) {
   AddWhy(app, options);
 }
 
+/// What is wrong with options that parsed; empty: nothing. CLI::Range lets NaN pass.
+std::string ComplaintAbout(const Options& options) {
+  for (const auto& [option, value, allowed] :
+       {std::tuple("--timeout", options.timeout_s, "0 to 1e6"),
+        {"--period", options.period_s, "a number of seconds"}}) {
+    if (std::isfinite(value)) continue;
+    return std::string(option) + ": " + (std::isnan(value) ? "nan" : "inf") +
+           ", allowed: " + allowed;
+  }
+  try {
+    ValidateWorld(options.monitor.world, options.monitor.domain);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+int Operate(const Options& options, const v1::OperatorCommand& command) {
+  const MonitorOptions& place = options.monitor;
+  try {
+    std::cerr << "collisionctl: " << PlaceText(place.world, place.domain) << '\n';
+    return RunOperatorRequest(place.world, place.domain, options.timeout_s, command, options.json);
+  } catch (const std::runtime_error& error) {
+    std::cerr << "collisionctl: " << error.what() << '\n';
+    return kExitUnavailable;
+  }
+}
+
 int Main(int argc, char** argv) {
   CLI::App app("Shows what collisiond and the simulators of a world publish.", "collisionctl");
   Options options;
@@ -360,18 +388,8 @@ int Main(int argc, char** argv) {
     const MonitorOptions& place = options.monitor;
     return RunSuggestBounds(bounds, {place.world, place.domain, options.timeout_s}, options.json);
   }
-  // CLI::Range lets NaN pass.
-  for (const auto& [option, value, allowed] :
-       {std::tuple("--timeout", options.timeout_s, "0 to 1e6"),
-        {"--period", options.period_s, "a number of seconds"}}) {
-    if (std::isfinite(value)) continue;
-    std::cerr << "collisionctl: " << option << ": " << value << ", allowed: " << allowed << '\n';
-    return kExitUsage;
-  }
-  try {
-    ValidateWorld(options.monitor.world, options.monitor.domain);
-  } catch (const std::runtime_error& error) {
-    std::cerr << "collisionctl: " << error.what() << '\n';
+  if (const std::string wrong = ComplaintAbout(options); !wrong.empty()) {
+    std::cerr << "collisionctl: " << wrong << '\n';
     return kExitUsage;
   }
   if (evict->parsed() && !wire::IsName(evicted)) {
@@ -380,15 +398,7 @@ int Main(int argc, char** argv) {
   }
   if (evict->parsed() || restart->parsed()) {
     const auto kind = evict->parsed() ? v1::OPERATOR_EVICT : v1::OPERATOR_RESTART_TIME;
-    try {
-      std::cerr << "collisionctl: " << PlaceText(options.monitor.world, options.monitor.domain)
-                << '\n';
-      return RunOperatorRequest(options.monitor.world, options.monitor.domain, options.timeout_s,
-                                MakeCommand(kind, evicted), options.json);
-    } catch (const std::runtime_error& error) {
-      std::cerr << "collisionctl: " << error.what() << '\n';
-      return kExitUnavailable;
-    }
+    return Operate(options, MakeCommand(kind, evicted));
   }
   const auto stop = [](int) { stopped = 1; };
   std::signal(SIGINT, stop);
