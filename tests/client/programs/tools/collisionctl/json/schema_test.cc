@@ -99,7 +99,7 @@ TEST_F(SchemaTest, TakesEventsOfEveryStatusEvaluatedOrNot) {
   for (int status = 0; status < v1::EventStatus_ARRAYSIZE; ++status) {
     v1::CollisionEvent event = OwnEvent(1, 1, 1);
     event.set_status(static_cast<v1::EventStatus>(status));
-    event.mutable_begin()->set_earliest_ns(status * 1'000'000'000);
+    event.mutable_begin()->set_earliest_ns(status * std::int64_t{1'000'000'000});
     event.mutable_begin()->set_latest_ns(kNever);
     documents.push_back(EventJson(event, view_, ""));
     event.set_evaluated_at_ns(5);
