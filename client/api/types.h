@@ -134,6 +134,70 @@ enum class EventLimit { kNone, kBudget, kMotion, kGeometry };
 /// "none", "budget", ...
 const char* Name(EventLimit limit);
 
+/// The direction between two bodies.
+struct Normal {
+  Vector3 direction{};   ///< Unit, from lower to higher.
+  double error_rad = 0;  ///< Angle to the true one, at most.
+};
+
+/// The velocity of the higher agent's point less that of the lower one's.
+struct RelativeVelocity {
+  Vector3 velocity_m_s{};
+  double error_m_s = 0;  ///< The true one is within this of it.
+};
+
+/// How near two agents are at one instant.
+struct Proximity {
+  std::int64_t at_ns = 0;         ///< The rest holds in this nanosecond.
+  double separation_lower_m = 0;  ///< Distance of the surfaces, negative inside: at least.
+  double separation_upper_m = 0;  ///< At most; <= 0: in contact.
+  double depth_lower_m = 0;       ///< Penetration depth: at least.
+  Vector3 point_m{};              ///< A common point, within its error; apart: half-way between.
+  double point_error_m = 0;
+  std::optional<Normal> normal;  ///< Absent: nobody knows it.
+  /// The solid or triangle that touches at the point, or is nearest: its number in the shape.
+  /// Absent: a ball, or not resolved so far.
+  std::optional<std::uint32_t> lower_part;
+  std::optional<std::uint32_t> higher_part;
+  std::optional<RelativeVelocity> relative_velocity;  ///< At the point.
+};
+
+/// A state as its owner told it.
+struct StateUsed {
+  std::int64_t stamp_ns = 0;
+  Vector3 position_m{};
+  Vector3 velocity_m_s{};
+  Vector3 acceleration_m_s2{};
+};
+
+/// What is certain of the least distance of two agents within a span of time.
+struct ClosestApproach {
+  std::int64_t from_ns = 0;  ///< The span.
+  std::int64_t until_ns = 0;
+  TimeBracket at;  ///< They are nearest within it.
+  double distance_lower_m = 0;
+  double distance_upper_m = 0;  ///< <= 0: they touch.
+};
+
+/// What is expected of a pair.
+enum class ExpectedOutcome {
+  kTouch,
+  kPass,
+  kUndecided  ///< They graze, or the service's work did not suffice.
+};
+
+/// "touch", "pass", "undecided".
+const char* Name(ExpectedOutcome outcome);
+
+/// What happens if both agents keep the motion that their newest states tell. No proof: nobody has
+/// to keep it. The brackets are certain for that motion.
+struct Expectation {
+  ExpectedOutcome outcome = ExpectedOutcome::kUndecided;
+  TimeBracket begin;                       ///< kTouch: when they begin to touch; else kNever.
+  std::optional<ClosestApproach> closest;  ///< kPass: how near, and when.
+  std::int64_t until_ns = 0;               ///< How far ahead it looked.
+};
+
 /// One revision of one contact of a pair. (lower, higher, contact) names the contact; a higher
 /// revision replaces a lower one. Every bracket contains the truth.
 struct Event {
@@ -152,14 +216,18 @@ struct Event {
   bool continuous = true;     ///< Contact is certified without a gap from begin to end.
   bool began_before = false;  ///< Perhaps before either agent was known, or jumped.
   double margin_m = 0;  ///< Of the two: this event is about the bodies grown by their margins.
-  std::int64_t evaluated_at_ns = kNever;  ///< What follows holds in this nanosecond; kNever: unset.
-  double separation_lower_m = 0;          ///< Distance of the surfaces, negative inside: at least.
-  double separation_upper_m = 0;          ///< At most.
-  double depth_lower_m = 0;               ///< Penetration depth: at least.
-  Vector3 point_m{};                      ///< A common point, within its error.
-  double point_error_m = 0;
-  Vector3 normal{};  ///< Unit, from lower to higher.
-  double normal_error_rad = 0;
+  /// At one instant of the contact or doubt; none of a pair that is only possible.
+  std::optional<Proximity> proximity;
+  /// The states from which the event was computed: of a possible event the newest ones, else those
+  /// in force at `proximity->at_ns`. Absent: the service does not keep them any more.
+  std::optional<StateUsed> lower_state;
+  std::optional<StateUsed> higher_state;
+  /// Of a possible event: what happens if both keep the motion that they told. Absent while a shape
+  /// is awaited.
+  std::optional<Expectation> expected;
+  /// Since the event was announced, or of the contact. Final in dismissed and ended events; absent:
+  /// nothing is known yet.
+  std::optional<ClosestApproach> closest;
   std::uint32_t level = 0;       ///< Depth of the sphere trees that decided it; 0: balls.
   std::uint64_t work_units = 0;  ///< Spent on this contact so far.
   EventLimit limited_by = EventLimit::kNone;

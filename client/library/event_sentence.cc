@@ -20,9 +20,9 @@ class Writer {
   std::string Text() const {
     switch (event_.status) {
       case EventStatus::kPossible:
-        return Possible();
+        return Possible() + Expected();
       case EventStatus::kConfirmed:
-        return Begin() + Place() + End();
+        return Begin() + Place() + Speed() + End();
       case EventStatus::kDismissed:
         return Dismissed();
       case EventStatus::kUndecided:
@@ -30,7 +30,7 @@ class Writer {
       case EventStatus::kWithdrawn:
         return "could have touched" + From() + ", which is withdrawn" + Reason(true);
       case EventStatus::kEnded:
-        return Begin() + Place() + End() + Reason(false);
+        return Begin() + Place() + Speed() + End() + Reason(false);
     }
     return "have an event of an unknown kind";
   }
@@ -113,7 +113,51 @@ class Writer {
   std::string Dismissed() const {
     const bool ahead = event_.begin.earliest_ns != kNever && IsAhead(event_.begin.earliest_ns);
     return std::string(ahead ? "will not touch" : "did not touch") + ", which had been possible" +
-           From();
+           From() + Passed();
+  }
+
+  /// What happens if both keep their motion.
+  std::string Expected() const {
+    if (!event_.expected) return "";
+    const Expectation& expected = *event_.expected;
+    const std::string kept = "; if both keep their motion, ";
+    switch (expected.outcome) {
+      case ExpectedOutcome::kTouch:
+        return kept + "they touch " + Between(expected.begin);
+      case ExpectedOutcome::kPass:
+        return kept + "they stay " +
+               (expected.closest ? Apart(*expected.closest) : std::string("apart")) + " up to " +
+               Earliest(expected.until_ns);
+      case ExpectedOutcome::kUndecided:
+        return kept + "it is open whether they touch";
+    }
+    return "";
+  }
+
+  std::string Passed() const {
+    if (!event_.closest || event_.closest->distance_upper_m <= 0) return "";
+    return "; they came " + Nearest(*event_.closest) + ", " + Between(event_.closest->at);
+  }
+
+  /// "at least 1.99 m apart"
+  static std::string Apart(const ClosestApproach& closest) {
+    return "at least " + MetresText(std::max(0.0, closest.distance_lower_m), Rounding::kDown) +
+           " m apart";
+  }
+
+  /// "as near as 1.99 to 2.01 m"
+  static std::string Nearest(const ClosestApproach& closest) {
+    return "as near as " + MetresText(std::max(0.0, closest.distance_lower_m), Rounding::kDown) +
+           " to " + MetresText(closest.distance_upper_m, Rounding::kUp) + " m";
+  }
+
+  /// How fast they move against each other where they touch.
+  std::string Speed() const {
+    if (!event_.proximity || !event_.proximity->relative_velocity) return "";
+    const Vector3& v = event_.proximity->relative_velocity->velocity_m_s;
+    char text[64];
+    std::snprintf(text, sizeof text, ", at %.3g m/s", std::hypot(v[0], v[1], v[2]));
+    return text;
   }
 
   std::string Undecided() const {
@@ -141,16 +185,17 @@ class Writer {
 
   /// Of a common point, with the decimals that its error leaves.
   std::string Place() const {
-    if (event_.evaluated_at_ns == kNever || event_.separation_upper_m > 0) return "";
+    if (!event_.proximity || event_.proximity->separation_upper_m > 0) return "";
+    const Proximity& proximity = *event_.proximity;
     constexpr int kDecimalsMax = 6;
     int decimals = 1;
-    for (double unit = 0.1; unit > event_.point_error_m && decimals < kDecimalsMax; unit /= 10) {
+    for (double unit = 0.1; unit > proximity.point_error_m && decimals < kDecimalsMax; unit /= 10) {
       ++decimals;
     }
     // An exact point needs no more digits than one that is known to a millimetre.
-    if (event_.point_error_m <= 0) decimals = 3;
+    if (proximity.point_error_m <= 0) decimals = 3;
     const double scale = std::pow(10, decimals);
-    Vector3 p = event_.point_m;
+    Vector3 p = proximity.point_m;
     for (double& x : p) x = std::round(x * scale) / scale + 0.0;  // -0 becomes 0.
     char text[1024];
     std::snprintf(text, sizeof text, ", at (%.*f, %.*f, %.*f) m", decimals, p[0], decimals, p[1],

@@ -83,20 +83,19 @@ std::string VectorText(const Vector3& vector, int decimals) {
 }
 
 /// With as many decimals as make sense for the error; the rounding of the digits adds to the error.
-std::string PointText(const Event& event) {
+std::string PointText(const Proximity& proximity) {
   double unit = 1;
   int decimals = 0;
-  for (; decimals < kDecimalsMax && unit > event.point_error_m / 10; ++decimals) unit /= 10;
-  return "  at " + VectorText(event.point_m, decimals) + " ± " +
-         MetresText(event.point_error_m + kHalfDiagonal * unit, Rounding::kUp) + " m";
+  for (; decimals < kDecimalsMax && unit > proximity.point_error_m / 10; ++decimals) unit /= 10;
+  return "  at " + VectorText(proximity.point_m, decimals) + " ± " +
+         MetresText(proximity.point_error_m + kHalfDiagonal * unit, Rounding::kUp) + " m";
 }
 
-/// Empty if the normal may point anywhere.
-std::string NormalText(const Event& event) {
-  const double degrees = event.normal_error_rad * kDegrees;
-  if (degrees >= 180) return "";
+std::string NormalText(const Proximity& proximity) {
+  if (!proximity.normal) return "";
+  const double degrees = proximity.normal->error_rad * kDegrees;
   // Three decimals turn a unit vector by less than 0.05 degrees.
-  return "  normal " + VectorText(event.normal, 3) + " ± " +
+  return "  normal " + VectorText(proximity.normal->direction, 3) + " ± " +
          MetresText(degrees + 0.05, Rounding::kUp) + "°";
 }
 
@@ -105,34 +104,84 @@ std::string LimitText(const Event& event) {
   return std::string(", limited by ") + Name(event.limited_by);
 }
 
+/// A ball has no parts.
+std::string PartsText(const Proximity& proximity) {
+  if (!proximity.lower_part && !proximity.higher_part) return "";
+  const auto text = [](const std::optional<std::uint32_t>& part) {
+    return part ? std::to_string(*part) : std::string("ball");
+  };
+  return "  parts " + text(proximity.lower_part) + " × " + text(proximity.higher_part);
+}
+
 /// What the sphere trees tell about two shapes. For balls the gap says everything.
-std::string ShapesText(const Event& event) {
+std::string ShapesText(const Event& event, const Proximity& proximity) {
   std::string text;
-  if (event.separation_upper_m <= 0) {
-    if (event.depth_lower_m > 0) {
-      text += "  depth ≥ " + MetresText(event.depth_lower_m, Rounding::kDown) + " m";
+  if (proximity.separation_upper_m <= 0) {
+    if (proximity.depth_lower_m > 0) {
+      text += "  depth ≥ " + MetresText(proximity.depth_lower_m, Rounding::kDown) + " m";
     }
-    text += PointText(event) + NormalText(event);
+    text += PointText(proximity) + NormalText(proximity) + PartsText(proximity);
   }
   text +=
       "  level " + std::to_string(event.level) + ", " + std::to_string(event.work_units) + " units";
   return text + LimitText(event);
 }
 
+std::string BetweenText(double lower, double upper, const std::string& unit = "m") {
+  return "[" + MetresText(lower, Rounding::kDown) + ", " + MetresText(upper, Rounding::kUp) + "] " +
+         unit;
+}
+
 std::string GapText(const Event& event) {
-  if (event.evaluated_at_ns == kNever) return "";
-  if (event.level > 0) {
-    return "  gap [" + MetresText(event.separation_lower_m, Rounding::kDown) + ", " +
-           MetresText(event.separation_upper_m, Rounding::kUp) + "] m" + ShapesText(event);
+  if (!event.proximity) return "";
+  const Proximity& proximity = *event.proximity;
+  const std::string between =
+      "  gap " + BetweenText(proximity.separation_lower_m, proximity.separation_upper_m);
+  if (event.level > 0) return between + ShapesText(event, proximity);
+  if (proximity.separation_upper_m <= 0) {
+    return "  gap ≤ " + MetresText(proximity.separation_upper_m, Rounding::kUp) + " m";
   }
-  const std::string upper = MetresText(event.separation_upper_m, Rounding::kUp);
-  if (event.separation_upper_m <= 0) return "  gap ≤ " + upper + " m";
   // Balls are limited by motion alone. Another limit tells of shapes that were not evaluated, or
   // whose trees are not built yet.
   const bool names_limit =
       event.limited_by == EventLimit::kBudget || event.limited_by == EventLimit::kGeometry;
-  return "  gap [" + MetresText(event.separation_lower_m, Rounding::kDown) + ", " + upper + "] m" +
-         (names_limit ? LimitText(event) : "");
+  return between + (names_limit ? LimitText(event) : "");
+}
+
+/// How fast the two move against each other where they touch.
+std::string SpeedText(const Event& event) {
+  if (!event.proximity || !event.proximity->relative_velocity) return "";
+  const RelativeVelocity& relative = *event.proximity->relative_velocity;
+  const Vector3& v = relative.velocity_m_s;
+  const double speed = std::hypot(v[0], v[1], v[2]);
+  return "  relative speed " +
+         BetweenText(std::max(0.0, speed - relative.error_m_s), speed + relative.error_m_s, "m/s");
+}
+
+std::string PassText(const ClosestApproach& closest, std::int64_t origin_ns) {
+  return BetweenText(closest.distance_lower_m, closest.distance_upper_m) + " in " +
+         BracketText(closest.at.earliest_ns, closest.at.latest_ns, origin_ns);
+}
+
+std::string ExpectedText(const Event& event, std::int64_t origin_ns) {
+  if (!event.expected) return "";
+  const Expectation& expected = *event.expected;
+  switch (expected.outcome) {
+    case ExpectedOutcome::kTouch:
+      return "  expected to touch in " +
+             BracketText(expected.begin.earliest_ns, expected.begin.latest_ns, origin_ns);
+    case ExpectedOutcome::kPass:
+      return "  expected to pass" +
+             (expected.closest ? " at " + PassText(*expected.closest, origin_ns) : "");
+    case ExpectedOutcome::kUndecided:
+      return "  expected: undecided";
+  }
+  return "";
+}
+
+std::string ClosestText(const Event& event, std::int64_t origin_ns) {
+  if (event.status != EventStatus::kDismissed || !event.closest) return "";
+  return "  passed at " + PassText(*event.closest, origin_ns);
 }
 
 }  // namespace
@@ -198,7 +247,8 @@ std::string EventLine(const Event& event, const AgentNamer& name, std::int64_t o
                 Name(event.status));
   return head + Padded(name(event.lower) + " × " + name(event.higher), kPairColumns) + "  #" +
          std::to_string(event.contact) + " r" + std::to_string(event.revision) + "  " +
-         WhenText(event, origin_ns) + GapText(event) +
+         WhenText(event, origin_ns) + GapText(event) + SpeedText(event) +
+         ExpectedText(event, origin_ns) + ClosestText(event, origin_ns) +
          (event.because.empty() ? "" : "  because " + event.because);
 }
 

@@ -20,6 +20,18 @@ const char* Name(EventStatus status) {
   return "unknown";
 }
 
+const char* Name(ExpectedOutcome outcome) {
+  switch (outcome) {
+    case ExpectedOutcome::kTouch:
+      return "touch";
+    case ExpectedOutcome::kPass:
+      return "pass";
+    case ExpectedOutcome::kUndecided:
+      return "undecided";
+  }
+  return "unknown";
+}
+
 const char* Name(EventLimit limit) {
   switch (limit) {
     case EventLimit::kNone:

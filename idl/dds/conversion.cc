@@ -75,6 +75,26 @@ void GetList(const Sequence& from, List* list) {
 #define LIST(x, bound) \
   BOTH(SetList(#x, bound, message.x(), wire.x), GetList(wire.x, message.mutable_##x()))
 
+// Absent, or a sequence of one.
+#define OPTIONAL(x)                                                                         \
+  BOTH(                                                                                     \
+      if (message.has_##x()) {                                                              \
+        Allocate(#x, 1, 1, wire.x);                                                         \
+        Fields<std::remove_reference_t<decltype(wire.x._buffer[0])>>::template Copy<true>(  \
+            wire.x._buffer[0], message.x());                                                \
+      },                                                                                    \
+      if (wire.x._length > 0) {                                                             \
+        Fields<std::remove_reference_t<decltype(wire.x._buffer[0])>>::template Copy<false>( \
+            wire.x._buffer[0], *message.mutable_##x());                                     \
+      })
+#define OPTIONAL_VALUE(x)                \
+  BOTH(                                  \
+      if (message.has_##x()) {           \
+        Allocate(#x, 1, 1, wire.x);      \
+        wire.x._buffer[0] = message.x(); \
+      },                                 \
+      if (wire.x._length > 0) message.set_##x(wire.x._buffer[0]))
+
 // clang-format off
 FIELDS(Vector3, VALUE(x) VALUE(y) VALUE(z))
 FIELDS(Quaternion, VALUE(w) VALUE(x) VALUE(y) VALUE(z))
@@ -143,13 +163,23 @@ FIELDS(EarliestIntersection,
 
 FIELDS(AgentLabel, TEXT(simulator_name) TEXT(agent_name) TEXT(assembly) LIST(tags, wire::kTagsMax))
 
+FIELDS(Normal, MESSAGE(direction) VALUE(error_rad))
+FIELDS(RelativeVelocity, MESSAGE(velocity_m_s) VALUE(error_m_s))
+FIELDS(Proximity,
+       VALUE(at_ns) MESSAGE(separation_m) VALUE(depth_lower_m) MESSAGE(point_m)
+       VALUE(point_error_m) OPTIONAL(normal) OPTIONAL_VALUE(lower_part)
+       OPTIONAL_VALUE(higher_part) OPTIONAL(relative_velocity))
+FIELDS(StateUsed,
+       VALUE(stamp_ns) MESSAGE(position_m) MESSAGE(velocity_m_s) MESSAGE(acceleration_m_s2))
+FIELDS(ClosestApproach, VALUE(from_ns) VALUE(until_ns) MESSAGE(at) MESSAGE(distance_m))
+FIELDS(Expectation, VALUE(outcome) MESSAGE(begin) OPTIONAL(closest) VALUE(until_ns))
+
 FIELDS(CollisionEvent,
        VALUE(pair_slot) VALUE(region) MESSAGE(stamp) VALUE(now_ns) VALUE(contacts_sequence)
        MESSAGE(lower) MESSAGE(higher) MESSAGE(lower_label) MESSAGE(higher_label) VALUE(contact)
        VALUE(revision) VALUE(status) MESSAGE(begin) MESSAGE(end)
-       VALUE(continuous) VALUE(began_before) VALUE(evaluated_at_ns) MESSAGE(separation_m)
-       VALUE(depth_lower_m) MESSAGE(point_m) VALUE(point_error_m) MESSAGE(normal)
-       VALUE(normal_error_rad) VALUE(level) VALUE(work_units) VALUE(limited_by)
+       VALUE(continuous) VALUE(began_before) OPTIONAL(proximity) OPTIONAL(lower_state)
+       OPTIONAL(higher_state) OPTIONAL(expected) OPTIONAL(closest) VALUE(level) VALUE(work_units) VALUE(limited_by)
        LIST(extensions, wire::kEventExtensionsMax) VALUE(margin_m))
 
 FIELDS(Rejection,

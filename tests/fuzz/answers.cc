@@ -26,18 +26,46 @@ auto Order(const v1::AgentId& id) {
   return std::tuple(id.simulator_id(), id.slot(), id.run(), id.generation());
 }
 
-void CheckNumbers(const v1::CollisionEvent& event, const Shown& text) {
-  const v1::Bracket& separation = event.separation_m();
-  Require(separation.lower() <= separation.upper(), "separation is not ordered: ", text);
-  Require(event.depth_lower_m() >= 0 && std::isfinite(event.depth_lower_m()), "depth: ", text);
-  Require(event.point_error_m() >= 0, "point_error_m: ", text);
-  Require(event.normal_error_rad() >= 0 && event.normal_error_rad() <= kPi, "normal_error: ", text);
-  const v1::Vector3 &point = event.point_m(), &normal = event.normal();
-  for (const double value : {point.x(), point.y(), point.z(), normal.x(), normal.y(), normal.z()}) {
+void CheckVector(const v1::Vector3& vector, const Shown& text) {
+  for (const double value : {vector.x(), vector.y(), vector.z()}) {
     Require(std::isfinite(value), "not finite: ", text);
   }
+}
+
+void CheckProximity(const v1::Proximity& proximity, const Shown& text) {
+  const v1::Bracket& separation = proximity.separation_m();
+  Require(separation.lower() <= separation.upper(), "separation is not ordered: ", text);
+  Require(proximity.depth_lower_m() >= 0 && std::isfinite(proximity.depth_lower_m()),
+          "depth: ", text);
+  Require(proximity.point_error_m() >= 0, "point_error_m: ", text);
+  CheckVector(proximity.point_m(), text);
+  if (proximity.has_relative_velocity()) {
+    CheckVector(proximity.relative_velocity().velocity_m_s(), text);
+    Require(proximity.relative_velocity().error_m_s() >= 0, "error of the velocity: ", text);
+  }
+  if (!proximity.has_normal()) return;
+  const v1::Vector3& normal = proximity.normal().direction();
+  const double error = proximity.normal().error_rad();
+  Require(error >= 0 && error < kPi, "normal's error: ", text);
   const double length = std::hypot(normal.x(), normal.y(), normal.z());
-  Require(length == 0 || std::abs(length - 1) < 1e-9, "normal of length ", length, ": ", text);
+  Require(std::abs(length - 1) < 1e-9, "normal of length ", length, ": ", text);
+}
+
+void CheckClosest(const v1::ClosestApproach& closest, const Shown& text) {
+  Require(closest.distance_m().lower() <= closest.distance_m().upper(),
+          "closest distance is not ordered: ", text);
+  Require(closest.from_ns() <= closest.at().earliest_ns() &&
+              closest.at().earliest_ns() <= closest.at().latest_ns() &&
+              closest.at().latest_ns() <= closest.until_ns(),
+          "closest approach is not within its span: ", text);
+}
+
+void CheckNumbers(const v1::CollisionEvent& event, const Shown& text) {
+  if (event.has_proximity()) CheckProximity(event.proximity(), text);
+  if (event.has_closest()) CheckClosest(event.closest(), text);
+  Require(!event.has_expected() || event.status() == v1::EVENT_POSSIBLE,
+          "only a possible event is expected to be anything: ", text);
+  if (event.expected().has_closest()) CheckClosest(event.expected().closest(), text);
 }
 
 void CheckTimes(const v1::CollisionEvent& event, const Shown& text) {

@@ -42,7 +42,7 @@ std::string IdlType(const FieldDescriptor& field, const IdlField& idl) {
 }
 
 TEST(Agreement, EveryStructIsAMessageWithTheSameFields) {
-  ASSERT_EQ(Idl().structs.size(), 28u);
+  ASSERT_EQ(Idl().structs.size(), 34u);
   for (const auto& [name, fields] : Idl().structs) {
     const auto* message = Proto().FindMessageTypeByName(name);
     ASSERT_NE(message, nullptr) << name;
@@ -52,7 +52,11 @@ TEST(Agreement, EveryStructIsAMessageWithTheSameFields) {
       EXPECT_EQ(field.name(), fields[i].name) << name;
       EXPECT_EQ(field.number(), i + 1) << field.full_name();
       EXPECT_EQ(IdlType(field, fields[i]), fields[i].type) << field.full_name();
-      const bool list = fields[i].sequence && field.type() != FieldDescriptor::TYPE_BYTES;
+      // A sequence of at most one element is a field that may be absent.
+      const bool optional = fields[i].sequence && fields[i].bound == 1;
+      const bool list =
+          fields[i].sequence && !optional && field.type() != FieldDescriptor::TYPE_BYTES;
+      EXPECT_TRUE(!optional || field.has_presence()) << field.full_name();
       EXPECT_EQ(field.is_repeated(), list) << field.full_name();
     }
   }

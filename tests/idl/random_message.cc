@@ -71,6 +71,8 @@ class Filler {
 
   void FillField(const FieldDescriptor* field, Message* message) {
     const IdlField& idl = InIdl(field);
+    const bool optional = idl.sequence && idl.bound == 1;
+    if (optional && !lengths_.at_bound && random_.Chance(0.5)) return;
     if (!field->is_repeated()) return FillOne(field, idl, message);
     for (std::size_t n = Length(field, idl.bound); n > 0; --n) AddOne(field, message);
   }

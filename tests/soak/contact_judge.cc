@@ -42,7 +42,7 @@ void ContactJudge::Hear(const Event& event) {
   if (!outcome_.Expect(known, "a contact of an agent that nobody flies")) return;
   const int watch = static_cast<int>(event.begin.latest_ns / plan_.watch_ns());
   const auto [a, b] = std::minmax(lower->second, higher->second);
-  const Key key{watch, SiteOf(event.point_m[0]), a, b};
+  const Key key{watch, SiteOf(event.proximity ? event.proximity->point_m[0] : 0), a, b};
   if (!Expect(judged_ <= watch, key, "heard too late")) return;
   const auto [known_contact, is_new] = heard_.try_emplace(key, event);
   if (!is_new) {

@@ -65,6 +65,45 @@ SimulatorStatus SimulatorStatusOf(const v1::SimulatorStatus& message) {
   return status;
 }
 
+Proximity ProximityOf(const v1::Proximity& message) {
+  Proximity proximity;
+  proximity.at_ns = message.at_ns();
+  proximity.separation_lower_m = message.separation_m().lower();
+  proximity.separation_upper_m = message.separation_m().upper();
+  proximity.depth_lower_m = message.depth_lower_m();
+  proximity.point_m = VectorOf(message.point_m());
+  proximity.point_error_m = message.point_error_m();
+  if (message.has_normal()) {
+    proximity.normal = {VectorOf(message.normal().direction()), message.normal().error_rad()};
+  }
+  if (message.has_lower_part()) proximity.lower_part = message.lower_part();
+  if (message.has_higher_part()) proximity.higher_part = message.higher_part();
+  if (message.has_relative_velocity()) {
+    const v1::RelativeVelocity& relative = message.relative_velocity();
+    proximity.relative_velocity = {VectorOf(relative.velocity_m_s()), relative.error_m_s()};
+  }
+  return proximity;
+}
+
+StateUsed StateOf(const v1::StateUsed& message) {
+  return {message.stamp_ns(), VectorOf(message.position_m()), VectorOf(message.velocity_m_s()),
+          VectorOf(message.acceleration_m_s2())};
+}
+
+ClosestApproach ClosestOf(const v1::ClosestApproach& message) {
+  return {message.from_ns(), message.until_ns(), BracketOf(message.at()),
+          message.distance_m().lower(), message.distance_m().upper()};
+}
+
+Expectation ExpectationOf(const v1::Expectation& message) {
+  Expectation expected;
+  expected.outcome = static_cast<ExpectedOutcome>(message.outcome());
+  expected.begin = BracketOf(message.begin());
+  if (message.has_closest()) expected.closest = ClosestOf(message.closest());
+  expected.until_ns = message.until_ns();
+  return expected;
+}
+
 }  // namespace
 
 v1::AgentDescription ToMessage(const AgentDescription& description) {
@@ -184,14 +223,11 @@ Event FromMessage(const v1::CollisionEvent& message) {
   event.continuous = message.continuous();
   event.began_before = message.began_before();
   event.margin_m = message.margin_m();
-  if (message.has_separation_m()) event.evaluated_at_ns = message.evaluated_at_ns();
-  event.separation_lower_m = message.separation_m().lower();
-  event.separation_upper_m = message.separation_m().upper();
-  event.depth_lower_m = message.depth_lower_m();
-  event.point_m = VectorOf(message.point_m());
-  event.point_error_m = message.point_error_m();
-  event.normal = VectorOf(message.normal());
-  event.normal_error_rad = message.normal_error_rad();
+  if (message.has_proximity()) event.proximity = ProximityOf(message.proximity());
+  if (message.has_lower_state()) event.lower_state = StateOf(message.lower_state());
+  if (message.has_higher_state()) event.higher_state = StateOf(message.higher_state());
+  if (message.has_expected()) event.expected = ExpectationOf(message.expected());
+  if (message.has_closest()) event.closest = ClosestOf(message.closest());
   event.level = message.level();
   event.work_units = message.work_units();
   event.limited_by = static_cast<EventLimit>(message.limited_by());

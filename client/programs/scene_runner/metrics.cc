@@ -92,11 +92,14 @@ void AddFinite(double value, std::vector<double>* values) {
 
 // Adds what an event claims about the bodies at one instant.
 void AddClaim(const v1::CollisionEvent& event, ShapeFigures* figures) {
-  if (event.evaluated_at_ns() == std::numeric_limits<std::int64_t>::max()) return;
-  AddFinite(event.separation_m().upper() - event.separation_m().lower(),
+  if (!event.has_proximity()) return;
+  const v1::Proximity& proximity = event.proximity();
+  AddFinite(proximity.separation_m().upper() - proximity.separation_m().lower(),
             &figures->separation_widths_m);
-  AddFinite(event.point_error_m(), &figures->point_errors_m);
-  AddFinite(event.normal_error_rad(), &figures->normal_errors_rad);
+  AddFinite(proximity.point_error_m(), &figures->point_errors_m);
+  if (proximity.has_normal()) {
+    AddFinite(proximity.normal().error_rad(), &figures->normal_errors_rad);
+  }
 }
 
 bool HasClaim(const v1::CollisionEvent& event) {

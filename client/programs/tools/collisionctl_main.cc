@@ -51,6 +51,7 @@ struct Options {
   TopOptions top_view;
   std::string pair[2];  ///< Of why.
   bool explain = false;
+  bool expected = false;
   std::vector<std::string> agents, statuses;
   std::optional<double> within_s, since_s;
   std::optional<std::size_t> top;
@@ -107,7 +108,8 @@ EventFilter FilterOf(const Options& options) {
   EventFilter filter{.agents = options.agents,
                      .within_ns = Nanoseconds(options.within_s),
                      .since_ns = Nanoseconds(options.since_s),
-                     .top = options.top};
+                     .top = options.top,
+                     .expected = options.expected};
   for (const std::string& status : options.statuses) filter.statuses.push_back(*StatusOf(status));
   return filter;
 }
@@ -265,6 +267,9 @@ void AddEvents(CLI::App* app, Options* options) {
                    "Only these: possible, confirmed, dismissed, undecided, withdrawn, ended")
       ->delimiter(',')
       ->check(StatusWord());
+  events->add_flag("--expected", options->expected,
+                   "Of possible events only those in which the two touch if both keep the motion "
+                   "that they told");
   events
       ->add_option("--within", options->within_s,
                    "Only what begins at most so many seconds ahead of now, 0 to 1e9")
@@ -274,8 +279,10 @@ void AddEvents(CLI::App* app, Options* options) {
                    "Only revisions of the last so many seconds, 0 to 1e9")
       ->check(Finite(kSecondsMax, true));
   events
-      ->add_option("--top", options->top,
-                   "Only the so many that are nearest in time, 1 to 4096; the nearest first")
+      ->add_option(
+          "--top", options->top,
+          "Only the so many that are nearest in time, 1 to 4096; expected ones first, then "
+          "the nearest")
       ->check(CLI::Range(std::size_t{1}, EventSelection::kRememberedMax));
 }
 

@@ -114,6 +114,13 @@ const History::Sample* History::Uninterrupted(Instant t) const {
   return &samples_[k];
 }
 
+const History::Sample* History::SampleAt(Instant t) const {
+  const std::size_t k = InForce(t);
+  if (k == samples_.size()) return nullptr;
+  const bool broken = k + 1 < samples_.size() && samples_[k + 1].link == Link::kBroken;
+  return broken ? nullptr : &samples_[k];
+}
+
 bool History::JumpsNear(std::size_t i, Instant from, Instant to) const {
   const motion::SpaceTimeBound& bound = samples_[i].bound;
   return samples_[i].link == Link::kJumped && bound.skew > 0 &&

@@ -51,6 +51,11 @@ void TakeBrackets(const ContactEpisode& episode, PublishedEvent* published) {
   event.continuous = continuous && !published->doubted;
 }
 
+std::optional<std::uint32_t> PartOf(const std::optional<ElementIndex>& element) {
+  if (!element) return std::nullopt;
+  return element->value();
+}
+
 // Point, normal, separation and depth at one instant. Bodies that overlap have no shortest way
 // between them: the direction in which they approached may be known better.
 void TakeProximity(const NearestInstant& nearest, const narrow_phase::ContactNormal& normal,
@@ -66,8 +71,23 @@ void TakeProximity(const NearestInstant& nearest, const narrow_phase::ContactNor
   const bool approached = normal.known && normal.error < found.normal_error;
   event->normal = approached ? normal.normal : found.normal;
   event->normal_error = approached ? normal.error : found.normal_error;
+  event->lower_part = PartOf(found.element_A);
+  event->higher_part = PartOf(found.element_B);
   event->level = found.level;
   event->limited_by = found.limited_by;
+}
+
+// The two are nearest while they touch. What was found counts if it covers all of that.
+void TakeClosest(const TimeBracket& contact, double separation_upper, double size,
+                 PublishedEvent* published) {
+  std::optional<ClosestApproach>& closest = published->closest;
+  if (!closest || closest->from > contact.earliest || closest->until < contact.latest) {
+    closest = {contact.earliest, contact.latest, contact, {-size, std::min(0.0, separation_upper)}};
+    return;
+  }
+  closest->distance.upper = std::min({0.0, separation_upper, closest->distance.upper});
+  closest->at = {std::max(closest->at.earliest, contact.earliest),
+                 std::min(closest->at.latest, contact.latest)};
 }
 
 double SecondsLeft(Instant now, Instant t) {
@@ -79,7 +99,7 @@ double SecondsLeft(Instant now, Instant t) {
 
 struct Announcer::Subject {
   const PairName& pair;
-  ProximitySource* proximity;  ///< Null in Close(), which confirms nothing.
+  EncounterSource* encounter;  ///< Null in Close(), which confirms and forecasts nothing.
   PublishedEvent& published;
 };
 
@@ -89,9 +109,9 @@ void Announcer::Start(Instant now) {
 }
 
 PairInterest Announcer::Report(const PairName& pair, const PairOutlook& outlook, Finality finality,
-                               ProximitySource* proximity, PublishedEvent* published) {
-  CORE_CHECK(proximity != nullptr && published != nullptr, "a report has a source and a target");
-  const Subject subject{pair, proximity, *published};
+                               EncounterSource* encounter, PublishedEvent* published) {
+  CORE_CHECK(encounter != nullptr && published != nullptr, "a report has a source and a target");
+  const Subject subject{pair, encounter, *published};
   for (const ContactEpisode& episode : outlook.settled) Finish(subject, episode);
 
   // There may be several episodes that are not settled; the event is about the first until that is
@@ -124,9 +144,9 @@ PairInterest Announcer::Report(const PairName& pair, const PairOutlook& outlook,
 }
 
 void Announcer::Announce(const PairName& pair, Instant free_until, bool began_before,
-                         PublishedEvent* published) {
+                         EncounterSource* encounter, PublishedEvent* published) {
   CORE_CHECK(!published->announced, "a pair is announced once", pair.slot.value());
-  Open({pair, nullptr, *published}, {free_until, began_before});
+  Open({pair, encounter, *published}, {free_until, began_before});
 }
 
 void Announcer::Close(const PairName& pair, const ContactEpisode* open, Departure departure,
@@ -136,6 +156,8 @@ void Announcer::Close(const PairName& pair, const ContactEpisode* open, Departur
   CollisionEvent& event = published->event;
   if (event.status == EventStatus::kConfirmed) {
     if (departure == Departure::kRemoved) event.end.latest = std::max(now_, event.end.earliest);
+    const Instant until = event.end.latest.is_never() ? event.end.earliest : event.end.latest;
+    TakeClosest({event.begin.earliest, until}, 0, pair.size, published);
     Emit(subject, EventStatus::kEnded);
   } else if (open != nullptr) {
     // What is known of the two does not exclude a contact.
@@ -155,6 +177,8 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
     Confirm(subject, episode);
     TakeBrackets(episode, &published);
     event.end.latest = episode.end.latest;
+    TakeClosest({episode.begin.earliest, episode.end.latest},
+                episode.nearest.found.separation.upper, subject.pair.size, &published);
     if (episode.exhausted) event.limited_by = narrow_phase::BracketLimit::kBudget;
     Emit(subject, EventStatus::kEnded);
   } else if (published.announced && event.status == EventStatus::kConfirmed) {
@@ -169,6 +193,7 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
     event.end.latest = episode.end.latest;
     event.end.earliest = std::min(event.end.earliest, event.end.latest);
     event.continuous = false;
+    TakeClosest({event.begin.earliest, event.end.latest}, 0, subject.pair.size, &published);
     Emit(subject, EventStatus::kEnded);
   } else {
     if (!published.announced) Open(subject, {episode.begin.earliest, episode.began_before});
@@ -207,9 +232,12 @@ void Announcer::Confirm(const Subject& subject, const ContactEpisode& episode) {
   TakeBrackets(episode, &published);
   event.began_before = episode.began_before;
   const Instant at = episode.begin.latest;
-  const ProximityAnswer proximity = subject.proximity->At(at);
-  published.work += proximity.work;
-  TakeProximity({at, proximity.found}, episode.normal, &event);
+  const EncounterAnswer answer = subject.encounter->At(at);
+  published.work += answer.work;
+  TakeProximity({at, answer.found}, episode.normal, &event);
+  event.relative_velocity = answer.relative_velocity;
+  event.lower_state = answer.lower_state;
+  event.higher_state = answer.higher_state;
   if (episode.exhausted) event.limited_by = narrow_phase::BracketLimit::kBudget;
   Emit(subject, EventStatus::kConfirmed);
 }
@@ -219,6 +247,8 @@ void Announcer::Open(const Subject& subject, const Opening& opening) {
   published.announced = true;
   published.doubted = published.broken = false;
   published.work = 0;
+  published.closest.reset();
+  published.followed_until = now_;
   CollisionEvent& event = published.event;
   event = CollisionEvent{};
   event.lower = subject.pair.lower;
@@ -239,6 +269,14 @@ void Announcer::Emit(const Subject& subject, EventStatus status) {
   ++event.revision;
   event.now = now_;
   event.work = subject.published.work;
+  event.closest = subject.published.closest;
+  event.expected.reset();
+  if (status == EventStatus::kPossible) {
+    ExpectationAnswer answer = subject.encounter->Expected();
+    event.expected = answer.expected;
+    event.lower_state = answer.lower_state;
+    event.higher_state = answer.higher_state;
+  }
   events_.push_back(event);
 }
 

@@ -1,6 +1,7 @@
 // When a change of a pair is worth an event, and the content of the event.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "collision_core/base/ids.h"
@@ -17,6 +18,7 @@ struct PairName {
   AgentIndex lower_index, higher_index;
   PairSlot slot;
   double margin = 0;  ///< As in CollisionEvent.
+  double size = 0;    ///< The sum of the radii of both [m]: no contact is deeper.
 };
 
 /// What has been published about a pair.
@@ -27,19 +29,31 @@ struct PublishedEvent {
   bool doubted = false;
   bool broken = false;     ///< A bound was broken since it was opened: its content may be void.
   std::uint64_t work = 0;  ///< Work units spent on the contact since it got its number.
+  /// Of the settled time since it was announced, up to `followed_until` (FollowClosest()).
+  std::optional<ClosestApproach> closest;
+  Instant followed_until = Instant::Never();
 };
 
-/// How near two agents are at an instant.
-struct ProximityAnswer {
+/// How near two agents are at an instant, how they move there, and from which states that follows.
+struct EncounterAnswer {
   narrow_phase::Proximity found;
+  std::optional<RelativeVelocity> relative_velocity;
+  std::optional<StateUsed> lower_state, higher_state;
   std::uint64_t work = 0;  ///< Units spent.
 };
 
-/// Answers for the two agents of one pair, with a budget of its own.
-class ProximitySource {
+/// What is expected of two agents, and their newest states.
+struct ExpectationAnswer {
+  std::optional<Expectation> expected;
+  std::optional<StateUsed> lower_state, higher_state;
+};
+
+/// Answers for the two agents of one pair, with budgets of its own.
+class EncounterSource {
  public:
-  virtual ~ProximitySource() = default;
-  virtual ProximityAnswer At(Instant at) = 0;
+  virtual ~EncounterSource() = default;
+  virtual EncounterAnswer At(Instant at) = 0;
+  virtual ExpectationAnswer Expected() = 0;
 };
 
 /// Whether this is the last report about a pair.
@@ -72,14 +86,15 @@ class Announcer {
   /// Start().
   const std::vector<CollisionEvent>& events() const { return events_; }
 
-  /// Calls `proximity` only for the instant at which a contact is confirmed.
+  /// Asks `encounter` only for what it publishes: for the instant at which a contact is confirmed,
+  /// and for what is expected when a possible event is told or revised.
   PairInterest Report(const PairName& pair, const PairOutlook& outlook, Finality finality,
-                      ProximitySource* proximity, PublishedEvent* published);
+                      EncounterSource* encounter, PublishedEvent* published);
 
   /// The pair may meet soon, and nothing more is known of it yet. Requires that it is not
   /// announced.
   void Announce(const PairName& pair, Instant free_until, bool began_before,
-                PublishedEvent* published);
+                EncounterSource* encounter, PublishedEvent* published);
 
   /// The pair is no longer watched: gives its event a final status. A confirmed event ends; a
   /// possible one is undecided if an episode is open (`open`; null: free), else withdrawn.

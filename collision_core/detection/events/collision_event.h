@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 
 #include "collision_core/base/instant.h"
 #include "collision_core/detection/events/agent_id.h"
@@ -27,6 +28,44 @@ struct TimeBracket {
   Instant earliest = Instant::Never();
   Instant latest = Instant::Never();
   friend bool operator==(const TimeBracket&, const TimeBracket&) = default;
+};
+
+/// A state as its owner told it, from which an event was computed; World frame W, SI units.
+struct StateUsed {
+  Instant stamp;
+  Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_WA = Eigen::Vector3d::Zero();
+  Eigen::Vector3d a_WA = Eigen::Vector3d::Zero();
+};
+
+/// What is certain of the least distance of a pair within [from, until].
+struct ClosestApproach {
+  Instant from, until;
+  TimeBracket at;              ///< They are nearest within it.
+  numeric::Interval distance;  ///< Of the surfaces [m]; upper <= 0: they touch.
+};
+
+/// What happens if both keep the motion that they told: no proof, since nobody has to.
+enum class ExpectedOutcome {
+  kTouch,     ///< They touch.
+  kPass,      ///< They do not, up to Expectation::until.
+  kUndecided  ///< They graze, or the work did not suffice.
+};
+
+/// What is expected of a pair: both keep the acceleration and the angular velocity of their newest
+/// states, which count as exact. Brackets are certified for that motion.
+struct Expectation {
+  ExpectedOutcome outcome = ExpectedOutcome::kUndecided;
+  TimeBracket begin;  ///< kTouch: when they begin to touch; else Never().
+  /// kPass: how near they come, and when; else nothing.
+  std::optional<ClosestApproach> closest;
+  Instant until;  ///< Nothing beyond it was looked at.
+};
+
+/// The velocity of B's point at a place less that of A's there [m/s], in W.
+struct RelativeVelocity {
+  Eigen::Vector3d v_AB = Eigen::Vector3d::Zero();
+  double error = 0;  ///< The true one is within this of it [m/s].
 };
 
 /// One revision of the event about one contact of one pair. (lower, higher, contact) names the
@@ -61,6 +100,19 @@ struct CollisionEvent {
   double point_error = 0;  ///< The true contact point lies within this of p_WC [m].
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< Unit vector, from lower to higher.
   double normal_error = 0;                           ///< Angle to the true normal, at most [rad].
+  /// Of the higher agent against the lower one, at p_WC; none where it is not known.
+  std::optional<RelativeVelocity> relative_velocity;
+  /// The solid or triangle of either shape that touches at p_WC, or is nearest; none of a ball, and
+  /// where only balls of the trees were compared.
+  std::optional<std::uint32_t> lower_part, higher_part;
+  /// The states from which the event was computed: the newest ones of a possible event, of the
+  /// others those in force at `evaluated_at`. None where they are not kept any more.
+  std::optional<StateUsed> lower_state, higher_state;
+  /// What is expected of a possible event; none of others, and while a shape is awaited.
+  std::optional<Expectation> expected;
+  /// The closest approach so far: since the event was announced, or of the contact. Final in events
+  /// that are dismissed or ended; none where nothing is known yet, and since a bound was broken.
+  std::optional<ClosestApproach> closest;
   /// Depth of the sphere trees down to which the pair was examined; 0: balls.
   std::uint32_t level = 0;
   std::uint64_t work = 0;  ///< WorkBudget units spent on this contact.

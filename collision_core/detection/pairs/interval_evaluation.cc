@@ -1,8 +1,8 @@
 #include "collision_core/detection/pairs/interval_evaluation.h"
 
 #include <algorithm>
-#include <numbers>
 
+#include "collision_core/detection/encounter/proximity_at.h"
 #include "collision_core/narrow_phase/contact/ball_proximity.h"
 #include "collision_core/numeric/seconds.h"
 
@@ -26,17 +26,6 @@ NearestInstant NearestOf(const narrow_phase::BallSegment& a, const narrow_phase:
       nearest = {numeric::AddRoundedDown(from, delta), found};
     }
   }
-  return nearest;
-}
-
-// Only the ball of an awaited shape is known: it can exclude a contact, but it neither confirms one
-// nor bounds the separation from above.
-NearestInstant AwaitedNearest(NearestInstant nearest) {
-  nearest.found.separation.upper = numeric::kInfinity;
-  nearest.found.depth_lower = 0;
-  nearest.found.point_error = numeric::kInfinity;
-  nearest.found.normal_error = std::numbers::pi;
-  nearest.found.limited_by = narrow_phase::BracketLimit::kGeometry;
   return nearest;
 }
 
@@ -75,7 +64,8 @@ bool EvaluateOne(const History& history_a, const History& history_b, Instant to,
   if (times.free_until < duration) {
     if (a.awaited || b.awaited) {
       times.contact_from = 1, times.contact_to = 0;
-      nearest = AwaitedNearest(NearestOf(a.ball, b.ball, from, duration));
+      nearest = NearestOf(a.ball, b.ball, from, duration);
+      nearest.found = ProximityOfAwaited(nearest.found);
     } else if (balls) {
       // For a contact, report its begin, not the closest approach.
       const bool goes_on = tracker->in_contact() && times.free_until <= 0;
@@ -142,18 +132,6 @@ Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instan
   const double duration = numeric::SecondsBetween(from, until).upper;
   const double free = FreeAhead(of_a, of_b, 0, duration, work);
   return std::min(until, numeric::AddRoundedDown(from, free));
-}
-
-narrow_phase::Proximity ProximityAt(const History& a, const History& b, Instant at,
-                                    WorkBudget* work) {
-  work->Spend(1);
-  const narrow_phase::BodySegment of_a = a.Over(at, at);
-  const narrow_phase::BodySegment of_b = b.Over(at, at);
-  if (of_a.is_ball() && of_b.is_ball()) return BallProximity(of_a.ball, of_b.ball, 0);
-  if (of_a.awaited || of_b.awaited) {
-    return AwaitedNearest({at, BallProximity(of_a.ball, of_b.ball, 0)}).found;
-  }
-  return ShapeProximity(of_a, of_b, 0, work);
 }
 
 }  // namespace collision::detection

@@ -29,8 +29,4 @@ bool HaveKnownShapes(const History& a, const History& b);
 Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instant until,
                         WorkBudget* work);
 
-/// Separation, depth, contact point and normal of the two at one instant.
-narrow_phase::Proximity ProximityAt(const History& a, const History& b, Instant at,
-                                    WorkBudget* work);
-
 }  // namespace collision::detection

@@ -39,6 +39,16 @@ Instant PairEvaluator::SettledUntil(const AgentRecord& agent) const {
       std::min(agent.heard_until(), numeric::AddRoundedDown(clock_.now, -LongestWaitFor(agent))));
 }
 
+Instant PairEvaluator::HeardUntil(const PairOfAgents& agents) const {
+  return std::min(
+      {agents.lower.heard_until(), agents.higher.heard_until(), clock_.now, ExpiryOf(agents)});
+}
+
+Instant PairEvaluator::SettledUntil(const PairOfAgents& agents, Finality finality) const {
+  if (finality == Finality::kLast) return HeardUntil(agents);
+  return std::min({SettledUntil(agents.lower), SettledUntil(agents.higher), ExpiryOf(agents)});
+}
+
 void PairEvaluator::EvaluateUntil(const PairOfAgents& agents, Instant until, WorkBudget* work,
                                   ContactTracker* tracker) const {
   const SegmentCount count =
@@ -49,21 +59,17 @@ void PairEvaluator::EvaluateUntil(const PairOfAgents& agents, Instant until, Wor
 
 ContactTracker PairEvaluator::Evaluate(const PairOfAgents& agents, Finality finality,
                                        WorkBudget* work) const {
-  const AgentRecord &a = agents.lower, &b = agents.higher;
   CORE_CHECK(queries_.MayMeet(agents.pair.lower, agents.pair.higher), "only agents that can meet");
   const bool last = finality == Finality::kLast;
-  const Instant there = ExpiryOf(agents);
-  const Instant heard = std::min({a.heard_until(), b.heard_until(), clock_.now, there});
   {
     const WorkShare share(last ? 1 : kSettledShare, work);
-    const Instant settled = last ? heard : std::min({SettledUntil(a), SettledUntil(b), there});
-    EvaluateUntil(agents, settled, work, &agents.pair.tracker);
+    EvaluateUntil(agents, SettledUntil(agents, finality), work, &agents.pair.tracker);
   }
   ContactTracker preview = agents.pair.tracker;
   preview.TakeFinished();
   {
     const WorkShare share(kHeardShare, work);
-    EvaluateUntil(agents, heard, work, &preview);
+    EvaluateUntil(agents, HeardUntil(agents), work, &preview);
   }
   if (preview.free() && !last) ExtendPromise(agents, work, &preview);
   return preview;

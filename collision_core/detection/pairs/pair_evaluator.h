@@ -35,12 +35,16 @@ class PairEvaluator {
   /// settled, and nothing is promised.
   ContactTracker Evaluate(const PairOfAgents& agents, Finality finality, WorkBudget* work) const;
 
+  /// How far Evaluate() settles a pair: nothing that comes later changes anything before.
+  Instant SettledUntil(const PairOfAgents& agents, Finality finality) const;
+
   /// How long to wait for the agent's next state [s]: announce_within, or twice its last interval
   /// if that is longer.
   double LongestWaitFor(const AgentRecord& agent) const;
 
  private:
   Instant SettledUntil(const AgentRecord& agent) const;
+  Instant HeardUntil(const PairOfAgents& agents) const;
   void EvaluateUntil(const PairOfAgents& agents, Instant until, WorkBudget* work,
                      ContactTracker* tracker) const;
   void ExtendPromise(const PairOfAgents& agents, WorkBudget* work, ContactTracker* preview) const;

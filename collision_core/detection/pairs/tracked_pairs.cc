@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "collision_core/detection/encounter/closest_so_far.h"
 #include "collision_core/detection/pairs/contact_rest.h"
 #include "collision_core/detection/pairs/interval_evaluation.h"
 #include "collision_core/numeric/seconds.h"
@@ -24,9 +25,15 @@ constexpr std::uint64_t kClaimAll = 4;
 // Work is plentiful again once a step has spent less than this part of its budget.
 constexpr std::uint64_t kPlenty = 2;
 
-// When a contact is confirmed this part of an evaluation's work is allowed for its proximity,
-// beside what the evaluation took.
+// Parts of an evaluation's work that are allowed beside what the evaluation took: for the proximity
+// of a contact that is confirmed, for what is expected of a pair, for its closest approach.
 constexpr std::uint64_t kProximityShare = 8;
+constexpr std::uint64_t kExpectedShare = 8;
+constexpr std::uint64_t kClosestShare = 8;
+
+// How far ahead a pair is expected to keep its motion, in units of announce_within: a possible
+// contact is announced at its earliest, and mostly comes later.
+constexpr double kExpectedAhead = 2;
 
 // What a turn costs of a step's work, in units. Two shapes cost as much as their last evaluation
 // took, within these bounds, so that a step has several turns; at first, enough to tell something.
@@ -40,26 +47,6 @@ constexpr std::uint64_t kBallsTurn = 20;
 // pair after another part of the share's second half.
 constexpr double kRestShare = 0.125;
 constexpr std::uint32_t kRestTimes = 16;
-
-/// Evaluates proximity with a budget of its own, and counts what it takes.
-class CountedProximity final : public ProximitySource {
- public:
-  CountedProximity(const PairOfAgents& agents, std::uint64_t allowed, DetectorCounters* counters)
-      : agents_(agents), allowed_(allowed), counters_(counters) {}
-
-  ProximityAnswer At(Instant at) override {
-    WorkBudget work(allowed_);
-    const narrow_phase::Proximity found =
-        ProximityAt(agents_.lower.history, agents_.higher.history, at, &work);
-    counters_->work_units += work.spent();
-    return {found, work.spent()};
-  }
-
- private:
-  const PairOfAgents& agents_;
-  const std::uint64_t allowed_;
-  DetectorCounters* counters_;
-};
 
 }  // namespace
 
@@ -219,7 +206,9 @@ void TrackedPairs::FindFirstClearance(PairSlot slot) {
 void TrackedPairs::Announce(PairSlot slot) {
   PairRecord& pair = table_[slot];
   due_.Set(slot, Instant::Never());
-  announcer_.Announce(NameOf(slot), pair.clear_until, pair.tracker.began_before(), &pair.published);
+  EventFacts facts = FactsOf(pair, options_.work_units_per_evaluation);
+  announcer_.Announce(NameOf(slot), pair.clear_until, pair.tracker.began_before(), &facts,
+                      &pair.published);
   MarkChanged(slot);
 }
 
@@ -270,6 +259,11 @@ void TrackedPairs::Evaluate(PairSlot slot, std::uint64_t allowed, Finality final
   held_ = held_ || held;
   WorkBudget work(allowed, held ? WhenExhausted::kLeaveUndecided : WhenExhausted::kQueryOnce);
   const ContactTracker preview = evaluator_.Evaluate({a, b, pair}, finality, &work);
+  if (pair.published.announced) {
+    context_.counters->encounter_units +=
+        FollowClosest(a.history, b.history, evaluator_.SettledUntil({a, b, pair}, finality),
+                      allowed / kClosestShare, &pair.published);
+  }
   pair.published.work += work.spent();
   pair.spent = work.exhausted() ? kAllWanted : work.spent();
   context_.counters->work_units += work.spent();
@@ -294,11 +288,18 @@ void TrackedPairs::Evaluate(PairSlot slot, std::uint64_t allowed, Finality final
 PairInterest TrackedPairs::Report(PairSlot slot, const ContactTracker& preview,
                                   std::uint64_t allowed, Finality finality) {
   PairRecord& pair = table_[slot];
-  const PairOfAgents agents{context_.agents[pair.lower], context_.agents[pair.higher], pair};
-  CountedProximity proximity(agents, allowed / kProximityShare, context_.counters);
+  EventFacts facts = FactsOf(pair, allowed);
   std::vector<ContactEpisode> settled;
   const PairOutlook outlook = OutlookOf(&pair.tracker, preview, &settled);
-  return announcer_.Report(NameOf(slot), outlook, finality, &proximity, &pair.published);
+  return announcer_.Report(NameOf(slot), outlook, finality, &facts, &pair.published);
+}
+
+EventFacts TrackedPairs::FactsOf(const PairRecord& pair, std::uint64_t allowed) const {
+  const FactLimits limits{.now = context_.clock.now,
+                          .ahead = kExpectedAhead * options_.announce_within,
+                          .proximity_units = allowed / kProximityShare,
+                          .expected_units = allowed / kExpectedShare};
+  return {context_.agents[pair.lower], context_.agents[pair.higher], limits, context_.counters};
 }
 
 void TrackedPairs::SetDue(PairSlot slot) {
@@ -328,7 +329,8 @@ PairName TrackedPairs::NameOf(PairSlot slot) const {
           .lower_index = pair.lower,
           .higher_index = pair.higher,
           .slot = slot,
-          .margin = lower.declaration.margin + higher.declaration.margin};
+          .margin = lower.declaration.margin + higher.declaration.margin,
+          .size = lower.declaration.limits.radius + higher.declaration.limits.radius};
 }
 
 // Both keys cover the pair from now on. False: they cannot, since a state lies beyond what is
@@ -391,7 +393,9 @@ void TrackedPairs::MarkChanged(PairSlot slot) {
 PairExtremes TrackedPairs::ExtremesOf(const PairRecord& pair) const {
   return {.clear_until = pair.in_contact ? Instant::Never() : pair.clear_until,
           .unannounced_until = pair.published.announced ? Instant::Never() : pair.clear_until,
-          .needed_from = pair.tracker.at(),
+          .needed_from = pair.published.announced
+                             ? std::min(pair.tracker.at(), pair.published.followed_until)
+                             : pair.tracker.at(),
           .unsettled_until = pair.unsettled_until,
           .contacts = pair.in_contact};
 }

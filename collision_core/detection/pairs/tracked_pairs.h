@@ -6,6 +6,7 @@
 
 #include "collision_core/detection/agents/detector_context.h"
 #include "collision_core/detection/agents/pair_queries.h"
+#include "collision_core/detection/encounter/event_facts.h"
 #include "collision_core/detection/events/announcer.h"
 #include "collision_core/detection/pairs/owner_queues.h"
 #include "collision_core/detection/pairs/pair_evaluator.h"
@@ -110,6 +111,7 @@ class TrackedPairs {
   void Evaluate(PairSlot slot, std::uint64_t allowed, Finality finality);
   PairInterest Report(PairSlot slot, const ContactTracker& preview, std::uint64_t allowed,
                       Finality finality);
+  EventFacts FactsOf(const PairRecord& pair, std::uint64_t allowed) const;
   void SetDue(PairSlot slot);
   Instant RestsUntil(PairSlot slot, const ContactTracker& preview) const;
   PairName NameOf(PairSlot slot) const;

@@ -17,6 +17,9 @@ struct DetectorCounters {
   std::uint64_t segments = 0;        ///< Segments of time evaluated by the narrow phase.
   std::uint64_t quick_segments = 0;  ///< Of these: decided in plain doubles.
   std::uint64_t work_units = 0;      ///< Spent by the narrow phase.
+  /// Spent beside it on what is expected of a pair and on closest approaches; no part of a step's
+  /// budget, and at most a quarter of what an evaluation may spend for each of them.
+  std::uint64_t encounter_units = 0;
   std::uint64_t evaluations_cut_short = 0;  ///< Evaluations that spent all they were allowed.
   std::uint64_t saturations = 0;            ///< Times an agent became saturated.
   std::uint64_t events[6] = {};  ///< Published revisions that changed the status, by EventStatus.
@@ -35,6 +38,7 @@ struct DetectorCounters {
     segments += more.segments;
     quick_segments += more.quick_segments;
     work_units += more.work_units;
+    encounter_units += more.encounter_units;
     evaluations_cut_short += more.evaluations_cut_short;
     saturations += more.saturations;
     for (std::size_t i = 0; i < 6; ++i) events[i] += more.events[i];

@@ -98,6 +98,8 @@ Proximity ProximityFrom(const PoseQuery& query, const ShapeMotion& motion, doubl
   // A guess: normal_error stays π.
   const Eigen::Vector3d between = pose.R_WA * pose.p_AB;
   if (between.norm() > 0) proximity.normal = between.normalized();
+  if (bracket.elements && motion.HasElementsA()) proximity.element_A = bracket.elements->a;
+  if (bracket.elements && motion.HasElementsB()) proximity.element_B = bracket.elements->b;
   proximity.level = bracket.level;
   proximity.limited_by = LimitOf(query, size);
   return proximity;

@@ -324,6 +324,38 @@ double ShapeMotion::ContactStep(const PoseQuery& query, TimeDirection direction)
   return step;
 }
 
+// As predicted from the chosen bounds, any two points move relative to each other by at most V h
+// within h seconds, V being the greatest predicted speed: the velocity of the centres is linear, so
+// that its norm is greatest at an end. What is not known of the translation is greatest at an end
+// too. The turning that is not known at the instant is part of the bracket; what is added to it
+// moves a point by at most so much angle times its reach, since a chord grows no faster than its
+// angle. A distance above 0 all the time keeps either from getting inside the other.
+double ShapeMotion::DistanceOver(const PoseQuery& query, double from, double to) const {
+  if (!query.apart() || !query.neither_inside) return -numeric::kInfinity;
+  const numeric::MovingBall& ball_a = a_.ball.bounds[query.choice.of_a];
+  const numeric::MovingBall& ball_b = b_.ball.bounds[query.choice.of_b];
+  const auto speed = [&](double at) {
+    return numeric::Norm(ball_b.VelocityAt(at) - ball_a.VelocityAt(at));
+  };
+  numeric::Interval fastest = numeric::Max(speed(from), speed(to));
+  const numeric::Cubic u = ball_a.u + ball_b.u;
+  numeric::Interval unknown = numeric::Max(u.At(from), u.At(to));
+  const auto turn = [&](const BodySegment& body, std::size_t bound) {
+    if (!body.shape) return;
+    const motion::MovingRotation& turning = body.turns[bound];
+    const numeric::Interval reach = TurningReachOf(body);
+    fastest = fastest + reach * numeric::Norm(numeric::IntervalVector(turning.w_WB));
+    const numeric::Cubic& angle = turning.angle_error;
+    const numeric::Interval most = numeric::Max(angle.At(from), angle.At(to));
+    unknown = unknown + reach * numeric::Max(0, most - angle.At(query.at));
+  };
+  turn(a_, query.choice.of_a);
+  turn(b_, query.choice.of_b);
+  const double h = std::max(numeric::AddUp(to, -query.at), numeric::AddUp(query.at, -from));
+  const double least = (numeric::Interval(query.bracket.lower) - h * fastest - unknown).lower;
+  return least > 0 ? least : -numeric::kInfinity;
+}
+
 double ShapeMotion::SpeedAt(const PoseQuery& query) const {
   const Drift drift = DriftFrom(query, TimeDirection::kForward);
   return (drift.along + drift.spin_sum).upper;

@@ -88,7 +88,16 @@ class ShapeMotion {
   /// times; +infinity: for ever. Requires touching().
   double ContactStep(const PoseQuery& query, TimeDirection direction) const;
 
+  /// Whether the body has triangles or solids, and is no ball.
+  bool HasElementsA() const { return a_.shape != nullptr; }
+  bool HasElementsB() const { return b_.shape != nullptr; }
+
   double size() const { return surface_a_.reach() + surface_b_.reach(); }
+
+  /// A lower bound of the distance of the surfaces throughout [from, to], which contains the instant
+  /// of `query`; -infinity where it does not follow that they stay apart. Requires
+  /// CheckContainment().
+  double DistanceOver(const PoseQuery& query, double from, double to) const;
 
   /// An upper bound of the relative speed of any two points of the bodies, as predicted [m/s].
   double SpeedAt(const PoseQuery& query) const;

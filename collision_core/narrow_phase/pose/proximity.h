@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 
+#include "collision_core/base/ids.h"
 #include "collision_core/numeric/interval.h"
 
 namespace collision::narrow_phase {
@@ -32,6 +34,9 @@ struct Proximity {
   /// balls; zero where there is none. Within `normal_error` [rad]; π says nothing.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double normal_error = std::numbers::pi;
+  /// The triangle or solid of each body that touches there, or is nearest; none of a ball, and where
+  /// only balls of the trees were compared.
+  std::optional<ElementIndex> element_A, element_B;
   std::uint32_t level = 0;  ///< The deepest level of the sphere trees that was opened.
   BracketLimit limited_by = BracketLimit::kMotion;
 };

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "collision_core/narrow_phase/pose/pair_parts.h"
@@ -53,7 +54,8 @@ struct ContactWitness {
 /// A way between the two surfaces that may be the shortest one; in A's body frame.
 struct NearestWay {
   Eigen::Vector3d a, b;
-  double lower, upper;  ///< Its length, the turning of both counted in.
+  double lower, upper;   ///< Its length, the turning of both counted in.
+  ElementPair elements;  ///< That it joins; if one body is a ball, both name the other's.
 };
 
 /// The result of one query at a pose. The uncertainty of rounding and turning is included, that of
@@ -73,6 +75,9 @@ struct SeparationBracket {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double point_error = numeric::kInfinity;
   std::vector<NearestWay> ways;  ///< With Goal::kNearest: one of them is the shortest way.
+  /// The elements that `point` belongs to, or lies between; if one body is a ball, both name the
+  /// other's. None where only balls of the trees were compared.
+  std::optional<ElementPair> elements;
 
   /// The surfaces are apart wherever B is displaced by at most `translation` [m]. Says nothing of
   /// one body inside the other.

@@ -122,7 +122,7 @@ double SeparationFindings::MeasureTriangles(ElementPair triangles, FirstTest fir
   const geometry::TriangleDistance found = geometry::DistanceOf(corners_a, corners_b);
   if (found.distance.lower <= 0 && !cross_first) Cross(triangles, corners_a, corners_b);
   const double lower = found.distance.lower - slack;
-  KeepWay({found.a, found.b, lower, found.distance.upper + slack});
+  KeepWay({found.a, found.b, lower, found.distance.upper + slack, triangles});
   return lower;
 }
 
@@ -158,7 +158,7 @@ double SeparationFindings::MeasureSolids(ElementPair solids, WorkBudget* work) {
     KeepPoint(found.a, found.point_error);
     bracket_.witness = ContactWitness::Elements(solids);
   }
-  KeepWay({found.a, found.b, found.separation.lower, upper});
+  KeepWay({found.a, found.b, found.separation.lower, upper, solids});
   return found.separation.lower;
 }
 
@@ -196,7 +196,7 @@ double SeparationFindings::MeasureBall(PairMember ball, ElementIndex triangle,
     KeepPoint(ball_is_a ? found.b : found.a, slack);  // of the surface, within the ball
     bracket_.witness = ContactWitness::Elements({triangle, triangle});
   }
-  KeepWay({a, b, lower, upper});
+  KeepWay({a, b, lower, upper, {triangle, triangle}});
   return lower;
 }
 
@@ -255,6 +255,7 @@ void SeparationFindings::PointBetween() {
   if (way_->lower > bracket_.upper + 2 * pose_.translation) return;
   bracket_.point = (way_->a + way_->b) / 2;
   bracket_.point_error = std::max(0.0, way_->upper);
+  bracket_.elements = way_->elements;
 }
 
 SeparationBracket SeparationFindings::Result(const SearchEnd& end) {
@@ -267,6 +268,9 @@ SeparationBracket SeparationFindings::Result(const SearchEnd& end) {
   }
   bracket_.exhausted = end.exhausted;
   bracket_.level = end.level;
+  if (bracket_.witness.kind == ContactWitness::Kind::kElements) {
+    bracket_.elements = bracket_.witness.elements;
+  }
   PointBetween();
   DropLonger();
   if (end.exhausted || bracket_.ways.size() > kWaysMax) bracket_.ways.clear();

@@ -66,7 +66,7 @@ class CheckTest : public testing::Test {
     event.set_now_ns(now_ns);
     event.set_status(status);
     event.set_continuous(true);
-    event.set_evaluated_at_ns(kOpen);
+    event.clear_proximity();
     event.mutable_begin()->set_earliest_ns(Instant(begin.earliest));
     event.mutable_begin()->set_latest_ns(Instant(begin.latest));
     event.mutable_end()->set_earliest_ns(Instant(end.earliest));
@@ -239,6 +239,30 @@ TEST_F(CheckTest, ADepartureExcusesPromisesFromThenOn) {
   EXPECT_EQ(announced.find("earliest"), std::string::npos) << announced;
   EXPECT_NE(Verdict().find("promised"), std::string::npos);
   EXPECT_NE(Verdict().find("earliest"), std::string::npos);
+}
+
+// The balls are |10 s − t| − 1 m apart: they are nearest at 10 s, 1 m inside each other.
+TEST_F(CheckTest, AWrongClosestApproachIsNoticed) {
+  struct Told {
+    double from, until, earliest, latest, lower, upper;
+    const char* complaint;
+  };
+  for (const Told& told :
+       {Told{8, 12, 9.9, 10.1, -1.01, -0.99, ""}, Told{8, 12, 8, 12, -2, 0, ""},
+        Told{8, 9.5, 9.5, 9.5, -0.5, -0.5, ""}, Told{8, 12, 9.9, 10.1, -0.99, -0.5, "at least"},
+        Told{8, 12, 9.9, 10.1, -1.3, -1.2, "at most"},
+        Told{8, 12, 8, 9.5, -1.01, -0.9, "nearer than while"}}) {
+    v1::ClosestApproach* closest = observations_.events[2].mutable_closest();
+    closest->set_from_ns(Instant(told.from));
+    closest->set_until_ns(Instant(told.until));
+    closest->mutable_at()->set_earliest_ns(Instant(told.earliest));
+    closest->mutable_at()->set_latest_ns(Instant(told.latest));
+    closest->mutable_distance_m()->set_lower(told.lower);
+    closest->mutable_distance_m()->set_upper(told.upper);
+    const std::string verdict = Verdict();
+    EXPECT_EQ(verdict.empty(), *told.complaint == '\0') << verdict;
+    EXPECT_NE(verdict.find(told.complaint), std::string::npos) << verdict;
+  }
 }
 
 TEST_F(CheckTest, EventThatNeverEndsIsNoticed) {

@@ -81,7 +81,7 @@ class ShapeCheckTest : public testing::Test {
     event.set_now_ns(std::llround(now * kSecond));
     event.set_status(status);
     event.set_continuous(true);
-    event.set_evaluated_at_ns(kOpen);
+    event.clear_proximity();
     *event.mutable_begin() = BracketOf(begin);
     *event.mutable_end() = BracketOf(end);
     observations_.events.push_back(event);
@@ -89,15 +89,15 @@ class ShapeCheckTest : public testing::Test {
 
   void Evaluate(std::size_t i, double at, std::array<double, 2> separation, const Vector& point) {
     v1::CollisionEvent& event = observations_.events[i];
-    event.set_evaluated_at_ns(std::llround(at * kSecond));
-    event.mutable_separation_m()->set_lower(separation[0]);
-    event.mutable_separation_m()->set_upper(separation[1]);
-    event.set_depth_lower_m(std::max(0.0, -separation[1]));
-    event.mutable_point_m()->set_x(point.x);
-    event.mutable_point_m()->set_y(point.y);
-    event.mutable_point_m()->set_z(point.z);
-    event.mutable_normal()->set_x(-1);
-    event.set_normal_error_rad(0.1);
+    event.mutable_proximity()->set_at_ns(std::llround(at * kSecond));
+    event.mutable_proximity()->mutable_separation_m()->set_lower(separation[0]);
+    event.mutable_proximity()->mutable_separation_m()->set_upper(separation[1]);
+    event.mutable_proximity()->set_depth_lower_m(std::max(0.0, -separation[1]));
+    event.mutable_proximity()->mutable_point_m()->set_x(point.x);
+    event.mutable_proximity()->mutable_point_m()->set_y(point.y);
+    event.mutable_proximity()->mutable_point_m()->set_z(point.z);
+    event.mutable_proximity()->mutable_normal()->mutable_direction()->set_x(-1);
+    event.mutable_proximity()->mutable_normal()->set_error_rad(0.1);
     event.set_work_units(100 * i);
   }
 
@@ -157,7 +157,7 @@ TEST_F(ShapeCheckTest, NearMissMayNotBeConfirmed) {
 // Goal:   a graze of 0.1 µm may be confirmed, dismissed or overlooked.
 TEST_F(ShapeCheckTest, GrazeIsNeitherDemandedNorForbidden) {
   SetOffset(1 - 1e-7);
-  for (auto& event : observations_.events) event.set_evaluated_at_ns(kOpen);
+  for (auto& event : observations_.events) event.clear_proximity();
   EXPECT_EQ(Verdict(), "");
   observations_.events.clear();
   EXPECT_EQ(Verdict(), "");
@@ -193,26 +193,26 @@ TEST_F(ShapeCheckTest, DepthBeyondWhatPartsThemIsNoticed) {
   EXPECT_TRUE(Complains("it is at least 0.2501 m deep, but 0.25 m part the two"));
   Evaluate(1, 9.25, {-1, -0.2499}, {9.6, 0.3, 0});
   EXPECT_EQ(Verdict(), "");
-  observations_.events[1].set_depth_lower_m(0.26);
+  observations_.events[1].mutable_proximity()->set_depth_lower_m(0.26);
   EXPECT_TRUE(Complains("it is at least 0.26 m deep"));
 }
 
 TEST_F(ShapeCheckTest, PointThatIsOffIsNoticed) {
   Evaluate(1, 9.25, {-1, -0.2}, {9.6, 0.501, 0});
   EXPECT_TRUE(Complains("its point is 0.001 m away from one of them, with an error of 0 m"));
-  observations_.events[1].set_point_error_m(0.001);
+  observations_.events[1].mutable_proximity()->set_point_error_m(0.001);
   EXPECT_EQ(Verdict(), "");
   Evaluate(0, 8, {0.9, 1.1}, {9.01, 0, 0});
   EXPECT_TRUE(Complains("its point is 0.51 m away"));
-  observations_.events[0].set_point_error_m(std::numeric_limits<double>::infinity());
+  observations_.events[0].mutable_proximity()->set_point_error_m(
+      std::numeric_limits<double>::infinity());
   EXPECT_EQ(Verdict(), "");
 }
 
 TEST_F(ShapeCheckTest, NormalThatIsNoDirectionIsNoticed) {
-  observations_.events[1].mutable_normal()->set_x(0.5);
+  observations_.events[1].mutable_proximity()->mutable_normal()->mutable_direction()->set_x(0.5);
   EXPECT_TRUE(Complains("its normal has the length 0.5"));
-  observations_.events[1].mutable_normal()->set_x(0);
-  observations_.events[1].set_normal_error_rad(std::numbers::pi);
+  observations_.events[1].mutable_proximity()->clear_normal();
   EXPECT_EQ(Verdict(), "");
 }
 
@@ -264,7 +264,7 @@ TEST_F(ShapeCheckTest, TouchingAgainWithinTheEndBracketIsCovered) {
 
 // Goal:   the report's figures are those of the events, of agents with meshes only.
 TEST_F(ShapeCheckTest, FiguresOfTheReport) {
-  observations_.events[1].set_point_error_m(0.002);
+  observations_.events[1].mutable_proximity()->set_point_error_m(0.002);
   v1::Counter* counter = observations_.status.add_counters();
   counter->set_name("tree_nodes");
   counter->set_value(77);

@@ -17,10 +17,11 @@ Event Contact(EventStatus status) {
   event.status = status;
   event.higher.slot = 1;
   event.begin = {2'101'000'000, 2'109'000'000};
-  event.evaluated_at_ns = 2'109'000'000;
-  event.separation_upper_m = -0.1;
-  event.point_m = {4.2, -0.04, 0};
-  event.point_error_m = 0.3;
+  event.proximity.emplace();
+  event.proximity->at_ns = 2'109'000'000;
+  event.proximity->separation_upper_m = -0.1;
+  event.proximity->point_m = {4.2, -0.04, 0};
+  event.proximity->point_error_m = 0.3;
   return event;
 }
 
@@ -75,7 +76,7 @@ TEST(EventSentence, OfAContactThatHasEnded) {
 TEST(EventSentence, OfAContactThatBeganBeforeTheyWereKnown) {
   Event event = Contact(EventStatus::kConfirmed);
   event.began_before = true;
-  event.evaluated_at_ns = kNever;
+  event.proximity.reset();
   event.end.earliest_ns = kNever;
   Expect(event, 3 * kSecond, "touched by 2.11 s, perhaps since before one of them was known.");
   event.begin.latest_ns = kNever;
@@ -95,6 +96,37 @@ TEST(EventSentence, OfAPossibleContact) {
   event.began_before = false;
   event.begin.earliest_ns = kNever;
   Expect(event, 5 * kSecond, "could touch at a time that is not known.");
+}
+
+TEST(EventSentence, OfWhatIsExpected) {
+  Event event = Forecast(EventStatus::kPossible);
+  event.expected.emplace().until_ns = 9 * kSecond;
+  Expect(event, kSecond,
+         "could touch, but not before 4.19 s; if both keep their motion, it is open whether they "
+         "touch.");
+  event.expected->outcome = ExpectedOutcome::kTouch;
+  event.expected->begin = {4'500'000'000, 4'510'000'000};
+  Expect(event, kSecond,
+         "could touch, but not before 4.19 s; if both keep their motion, they touch between 4.50 s "
+         "and 4.51 s.");
+  event.expected->outcome = ExpectedOutcome::kPass;
+  event.expected->closest = {0, 9 * kSecond, {5 * kSecond, 6 * kSecond}, 1.994, 2};
+  Expect(event, kSecond,
+         "could touch, but not before 4.19 s; if both keep their motion, they stay at least 1.99 m "
+         "apart up to 9.00 s.");
+}
+
+TEST(EventSentence, OfHowFastAndHowNear) {
+  Event event = Contact(EventStatus::kConfirmed);
+  event.end = {kNever, kNever};
+  event.proximity->relative_velocity = {{3, 0, -4}, 0.1};
+  Expect(event, 3 * kSecond,
+         "began to touch between 2.101 s and 2.109 s, at (4.2, 0.0, 0.0) m, at 5 m/s.");
+  event = Forecast(EventStatus::kDismissed);
+  event.closest = {0, 9 * kSecond, {5 * kSecond, 6 * kSecond}, 1.994, 2.001};
+  Expect(event, 9 * kSecond,
+         "did not touch, which had been possible from 4.19 s; they came as near as 1.99 to 2.01 m, "
+         "between 5.00 s and 6.00 s.");
 }
 
 TEST(EventSentence, OfOneThatCameToNothing) {
@@ -143,11 +175,11 @@ TEST(EventSentence, TellsAMarginAndTimesOfDay) {
 TEST(EventSentence, HasTheDigitsThatAreKnown) {
   Event event = Contact(EventStatus::kConfirmed);
   event.begin = {2'100'000'001, 2'100'000'003};
-  event.point_error_m = 0.002;
+  event.proximity->point_error_m = 0.002;
   Expect(event, kSecond,
          "will touch between 2.100000001 s and 2.100000003 s, at (4.200, -0.040, "
          "0.000) m.");
-  event.point_error_m = 0;
+  event.proximity->point_error_m = 0;
   Expect(event, kSecond,
          "will touch between 2.100000001 s and 2.100000003 s, at (4.200, -0.040, "
          "0.000) m.");

@@ -22,9 +22,10 @@ Event Confirmed() {
   event.begin.latest_ns = 599'734'369'001;
   event.end.earliest_ns = 599'734'369'001;
   event.end.latest_ns = kNever;
-  event.evaluated_at_ns = 599'734'370'000;
-  event.separation_lower_m = -3;
-  event.separation_upper_m = -0.1234;
+  event.proximity.emplace();
+  event.proximity->at_ns = 599'734'370'000;
+  event.proximity->separation_lower_m = -3;
+  event.proximity->separation_upper_m = -0.1234;
   return event;
 }
 
@@ -38,8 +39,8 @@ TEST(EventText, APossibleEventWithOpenBeginOnAWallClock) {
   Event event = Confirmed();
   event.status = EventStatus::kPossible;
   event.begin.latest_ns = kNever;
-  event.separation_lower_m = 0.012345;
-  event.separation_upper_m = 1234.5;
+  event.proximity->separation_lower_m = 0.012345;
+  event.proximity->separation_upper_m = 1234.5;
   EXPECT_EQ(EventLine(event, NameOf, 599'000'000'000),
             "      0.734 s  possible   iridium-33 × cosmos-2251      #1 r3  "
             "begin [0.734236, open]  end open  gap [0.0123, 1.24e+03] m");
@@ -47,14 +48,15 @@ TEST(EventText, APossibleEventWithOpenBeginOnAWallClock) {
 
 Event OfShapes() {
   Event event = Confirmed();
-  event.depth_lower_m = 0.2345;
-  event.point_m[0] = 1.25;
-  event.point_m[1] = -1234.56789;
-  event.point_m[2] = -0.0;
-  event.point_error_m = 0.16;
-  event.normal[0] = 0.6;
-  event.normal[1] = -0.8;
-  event.normal_error_rad = 0.0873;
+  event.proximity->depth_lower_m = 0.2345;
+  event.proximity->point_m[0] = 1.25;
+  event.proximity->point_m[1] = -1234.56789;
+  event.proximity->point_m[2] = -0.0;
+  event.proximity->point_error_m = 0.16;
+  event.proximity->normal.emplace();
+  event.proximity->normal->direction[0] = 0.6;
+  event.proximity->normal->direction[1] = -0.8;
+  event.proximity->normal->error_rad = 0.0873;
   event.level = 6;
   event.work_units = 1840;
   event.limited_by = EventLimit::kBudget;
@@ -75,21 +77,58 @@ TEST(EventText, AContactOfShapesHasPlaceDepthAndLimit) {
 
 TEST(EventText, AContactOfShapesLeavesOutWhatIsUnknown) {
   Event event = OfShapes();
-  event.normal_error_rad = 3.1415926535897936;
-  event.depth_lower_m = 0;
-  event.point_error_m = 0;
+  event.proximity->normal.reset();
+  event.proximity->depth_lower_m = 0;
+  event.proximity->point_error_m = 0;
   event.limited_by = EventLimit::kNone;
   EXPECT_EQ(FromGap(event),
             "  gap [-3, -0.123] m  at (1.250000000, -1234.567890000, 0.000000000) ± 8.67e-10 m  "
             "level 6, 1840 units");
-  event.point_error_m = 1e6;
+  event.proximity->point_error_m = 1e6;
   EXPECT_NE(FromGap(event).find("  at (1, -1235, 0) ± 1.01e+06 m"), std::string::npos)
       << FromGap(event);
-  event.separation_upper_m = 0.5;
+  event.proximity->separation_upper_m = 0.5;
   event.limited_by = EventLimit::kGeometry;
   EXPECT_EQ(FromGap(event), "  gap [-3, 0.5] m  level 6, 1840 units, limited by geometry");
   event.limited_by = EventLimit::kMotion;
   EXPECT_NE(FromGap(event).find(", limited by motion"), std::string::npos);
+}
+
+TEST(EventText, AContactNamesItsPartsAndItsSpeed) {
+  Event event = OfShapes();
+  event.proximity->higher_part = 17;
+  event.proximity->relative_velocity = {{3, 0, -4}, 0.25};
+  const std::string line = FromGap(event);
+  EXPECT_NE(line.find("  parts ball × 17  level 6"), std::string::npos) << line;
+  EXPECT_TRUE(line.ends_with("  relative speed [4.75, 5.25] m/s")) << line;
+}
+
+TEST(EventText, APossibleEventSaysWhatIsExpected) {
+  Event event = Confirmed();
+  event.proximity.reset();
+  event.status = EventStatus::kPossible;
+  event.expected.emplace();
+  const auto expected = [&event] {
+    const std::string line = EventLine(event, NameOf, 0);
+    return line.substr(line.find("  end open") + 10);
+  };
+  EXPECT_EQ(expected(), "  expected: undecided");
+  event.expected->outcome = ExpectedOutcome::kTouch;
+  event.expected->begin = {600'000'000'000, 600'000'000'001};
+  EXPECT_EQ(expected(), "  expected to touch in [600.000000, 600.000001]");
+  event.expected->outcome = ExpectedOutcome::kPass;
+  event.expected->closest = {0, 0, {601'000'000'000, 602'000'000'000}, 1.2345, 1.5};
+  EXPECT_EQ(expected(), "  expected to pass at [1.23, 1.5] m in [601.000000, 602.000000]");
+}
+
+TEST(EventText, ADismissedEventSaysHowNearTheyCame) {
+  Event event = Confirmed();
+  event.proximity.reset();
+  event.closest = {0, 0, {601'000'000'000, 602'000'000'000}, 1.2345, 1.5};
+  EXPECT_EQ(EventLine(event, NameOf, 0).find("passed"), std::string::npos);
+  event.status = EventStatus::kDismissed;
+  EXPECT_TRUE(EventLine(event, NameOf, 0)
+                  .ends_with("  passed at [1.23, 1.5] m in [601.000000, 602.000000]"));
 }
 
 TEST(EventText, AnEventThatTheServiceEndedSaysWhy) {
@@ -109,7 +148,7 @@ TEST(EventText, BallsHaveNoLevel) {
 TEST(EventText, AContactThatBeganBeforeHasNoEarliestBegin) {
   Event event = Confirmed();
   event.began_before = true;
-  event.evaluated_at_ns = kNever;
+  event.proximity.reset();
   std::string line = EventLine(event, NameOf, 0);
   EXPECT_EQ(line.substr(line.find("  begin")), "  begin ≤ 599.734370 (began before)  end open");
   event.begin.latest_ns = kNever;
@@ -122,8 +161,8 @@ TEST(EventText, AnUndecidedEventHasNeitherBeginNorEnd) {
   Event event = Confirmed();
   event.status = EventStatus::kUndecided;
   event.end.latest_ns = 599'857'266'001;
-  event.separation_lower_m = -0.5;
-  event.separation_upper_m = 0.5;
+  event.proximity->separation_lower_m = -0.5;
+  event.proximity->separation_upper_m = 0.5;
   EXPECT_EQ(EventLine(event, NameOf, 0),
             "    599.734 s  undecided  iridium-33 × cosmos-2251      #1 r3  "
             "not certified free in [599.734236, 599.857267]  gap [-0.5, 0.5] m");
@@ -150,14 +189,14 @@ TEST(EventText, AWallClockReadsAsTheTimeOfDay) {
 
 TEST(EventText, AGapOfZeroHasNoSign) {
   Event event = Confirmed();
-  event.separation_upper_m = -0.0;
+  event.proximity->separation_upper_m = -0.0;
   const std::string line = EventLine(event, NameOf, 0);
   EXPECT_EQ(line.substr(line.find("gap")), "gap ≤ 0 m");
 }
 
 TEST(EventText, AnEndShowsWhatIsKnown) {
   Event event = Confirmed();
-  event.evaluated_at_ns = kNever;
+  event.proximity.reset();
   event.end.earliest_ns = 599'734'400'000;
   EXPECT_NE(EventLine(event, NameOf, 0).find("  end ≥ 599.734400"), std::string::npos);
   event.end.latest_ns = 599'857'266'001;

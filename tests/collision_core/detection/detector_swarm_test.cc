@@ -69,6 +69,10 @@ class Crowd {
     return apart.norm() - 2 * kRadius;
   }
 
+  Vector Velocity(std::size_t agent, Instant t) const {
+    return motion_[agent].At(t.nanoseconds()).TrueAt(t.nanoseconds()).v;
+  }
+
  private:
   std::vector<PiecewiseMotion> motion_;
 };
@@ -169,6 +173,33 @@ RunLog Simulate(const Crowd& crowd, int steps) {
   return run;
 }
 
+// The least distance of the two within the span that an event speaks of is within its bracket, and
+// taken within its bracket of time. Samples tell the truth: the least of them is no less than it,
+// and by less than they move between two.
+void ExpectClosest(const Crowd& crowd, const CollisionEvent& event) {
+  constexpr int kSamples = 400;
+  ASSERT_TRUE(event.closest) << "since the event was announced states came";
+  const ClosestApproach& closest = *event.closest;
+  ASSERT_LE(closest.from, closest.at.earliest);
+  ASSERT_LE(closest.at.latest, closest.until);
+  const std::int64_t from = closest.from.nanoseconds(), span = closest.until.nanoseconds() - from;
+  Real least = std::numeric_limits<Real>::infinity(), least_inside = least;
+  for (int i = 0; i <= kSamples; ++i) {
+    const Instant at = Instant::FromNanoseconds(from + span * i / kSamples);
+    const Real gap = crowd.Gap(event.lower.slot, event.higher.slot, at);
+    least = std::min(least, gap);
+    if (closest.at.earliest <= at && at <= closest.at.latest) {
+      least_inside = std::min(least_inside, gap);
+    }
+  }
+  // No two move faster against each other than 30 m/s.
+  const Real between = 30 * Real(span) * 1e-9L / kSamples;
+  EXPECT_LE(closest.distance.lower, least + kTolerance);
+  EXPECT_GE(closest.distance.upper, least - between - kTolerance);
+  EXPECT_GE(least, closest.distance.lower - kTolerance);
+  EXPECT_LE(std::min(least_inside, Real(closest.distance.upper)), least + between + kTolerance);
+}
+
 // What the truth is off by [ns]: the root, and the nanosecond that it is cut to.
 constexpr std::int64_t kOracle = 2;
 
@@ -223,7 +254,7 @@ TEST_P(DetectorSwarm, NeverLateNeverMadeUpNearlyTight) {
     }
   }
 
-  std::vector<double> widths;
+  std::vector<double> widths, widths_of_closest;
   for (const CollisionEvent& event : run.events) {
     const std::size_t a = event.lower.slot, b = event.higher.slot;
     if (event.status == EventStatus::kConfirmed || event.status == EventStatus::kEnded) {
@@ -237,6 +268,21 @@ TEST_P(DetectorSwarm, NeverLateNeverMadeUpNearlyTight) {
     }
     if (event.status == EventStatus::kDismissed) {
       EXPECT_GT(crowd.Gap(a, b, event.now), 0);
+      if (event.closest) widths_of_closest.push_back(event.closest->distance.width());
+    }
+    const bool over =
+        event.status == EventStatus::kDismissed || event.status == EventStatus::kEnded;
+    if (over) ExpectClosest(crowd, event);
+    EXPECT_EQ(event.expected.has_value(), event.status == EventStatus::kPossible);
+    EXPECT_TRUE(event.lower_state && event.higher_state);
+    if (event.status == EventStatus::kConfirmed) {
+      ASSERT_TRUE(event.relative_velocity);
+      EXPECT_LE((crowd.Velocity(b, event.evaluated_at) - crowd.Velocity(a, event.evaluated_at) -
+                 event.relative_velocity->v_AB.cast<Real>())
+                    .norm(),
+                event.relative_velocity->error);
+      // States at most 1/16 s old, 5 m/s² each.
+      EXPECT_LE(event.relative_velocity->error, 2 * kAccelerationMax / 16 + 1e-6);
     }
   }
   // Between states T <= 1/16 s apart two bounds of 5 m/s² meet at 2.5 mm; bodies close at metres a
@@ -244,6 +290,9 @@ TEST_P(DetectorSwarm, NeverLateNeverMadeUpNearlyTight) {
   ASSERT_FALSE(widths.empty());
   std::sort(widths.begin(), widths.end());
   EXPECT_LT(widths[widths.size() / 2], 0.01);
+  ASSERT_FALSE(widths_of_closest.empty());
+  std::sort(widths_of_closest.begin(), widths_of_closest.end());
+  EXPECT_LT(widths_of_closest[widths_of_closest.size() / 2], 0.006);
 
   EXPECT_GT(run.compared_earliest, 0u);
   EXPECT_EQ(run.mismatched_earliest, 0u);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace collision::server {
 namespace {
 
@@ -50,7 +52,7 @@ TEST(Encode, AnEventKeepsIdentityTimesAndStatus) {
   EXPECT_EQ(wire.end().latest_ns(), std::numeric_limits<std::int64_t>::max());
   EXPECT_FALSE(wire.continuous());
   EXPECT_TRUE(wire.began_before());
-  EXPECT_EQ(wire.evaluated_at_ns(), 8);
+  EXPECT_EQ(wire.proximity().at_ns(), 8);
 }
 
 TEST(Encode, AnEventKeepsItsGeometryUnrounded) {
@@ -65,21 +67,79 @@ TEST(Encode, AnEventKeepsItsGeometryUnrounded) {
   event.level = 5;
   event.work = 0xf000'0000'0000'0001;
   event.limited_by = narrow_phase::BracketLimit::kGeometry;
+  event.evaluated_at = At(kLong);
+  event.lower_part = 0;
+  event.relative_velocity = {{1.5, -2.5, 3.5}, 0.25};
   const v1::CollisionEvent wire = Encode(event);
-  EXPECT_EQ(wire.separation_m().lower(), -0.1);
-  EXPECT_EQ(wire.separation_m().upper(), 1 / 3.0);
-  EXPECT_EQ(wire.depth_lower_m(), 0.7);
-  EXPECT_EQ(wire.point_m().x(), 1.1);
-  EXPECT_EQ(wire.point_m().y(), 1e15 + 0.125);
-  EXPECT_EQ(wire.point_m().z(), -3.3);
-  EXPECT_EQ(wire.point_error_m(), 0.01);
-  EXPECT_EQ(wire.normal().x(), 0.36);
-  EXPECT_EQ(wire.normal().y(), 0.48);
-  EXPECT_EQ(wire.normal().z(), 0.8);
-  EXPECT_EQ(wire.normal_error_rad(), 0.02);
+  EXPECT_EQ(wire.proximity().separation_m().lower(), -0.1);
+  EXPECT_EQ(wire.proximity().separation_m().upper(), 1 / 3.0);
+  EXPECT_EQ(wire.proximity().depth_lower_m(), 0.7);
+  EXPECT_EQ(wire.proximity().point_m().x(), 1.1);
+  EXPECT_EQ(wire.proximity().point_m().y(), 1e15 + 0.125);
+  EXPECT_EQ(wire.proximity().point_m().z(), -3.3);
+  EXPECT_EQ(wire.proximity().point_error_m(), 0.01);
+  EXPECT_EQ(wire.proximity().normal().direction().x(), 0.36);
+  EXPECT_EQ(wire.proximity().normal().direction().y(), 0.48);
+  EXPECT_EQ(wire.proximity().normal().direction().z(), 0.8);
+  EXPECT_EQ(wire.proximity().normal().error_rad(), 0.02);
   EXPECT_EQ(wire.level(), 5u);
   EXPECT_EQ(wire.work_units(), 0xf000'0000'0000'0001);
   EXPECT_EQ(wire.limited_by(), v1::LIMIT_GEOMETRY);
+  EXPECT_TRUE(wire.proximity().has_lower_part());
+  EXPECT_FALSE(wire.proximity().has_higher_part());
+  EXPECT_EQ(wire.proximity().relative_velocity().velocity_m_s().y(), -2.5);
+  EXPECT_EQ(wire.proximity().relative_velocity().error_m_s(), 0.25);
+}
+
+TEST(Encode, WhatNobodyKnowsIsAbsent) {
+  detection::CollisionEvent event;
+  const v1::CollisionEvent possible = Encode(event);
+  EXPECT_FALSE(possible.has_proximity() || possible.has_expected() || possible.has_closest());
+  EXPECT_FALSE(possible.has_lower_state() || possible.has_higher_state());
+  event.evaluated_at = At(1);
+  event.normal = {1, 0, 0};
+  event.normal_error = std::numbers::pi;
+  EXPECT_FALSE(Encode(event).proximity().has_normal()) << "it may point anywhere";
+  event.normal_error = 3;
+  EXPECT_TRUE(Encode(event).proximity().has_normal());
+  event.normal.setZero();
+  EXPECT_FALSE(Encode(event).proximity().has_normal()) << "there is none";
+}
+
+void ExpectVector(const v1::Vector3& wire, double x, double y, double z) {
+  EXPECT_EQ(wire.x(), x);
+  EXPECT_EQ(wire.y(), y);
+  EXPECT_EQ(wire.z(), z);
+}
+
+TEST(Encode, AnEventKeepsStatesExpectationAndClosestApproach) {
+  detection::CollisionEvent event;
+  event.lower_state = {At(1), {1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+  event.higher_state = {At(kLong), {11, 12, 13}, {14, 15, 16}, {17, 18, 19}};
+  event.closest = {At(2), At(6), {At(3), At(4)}, {0.1, 0.3}};
+  event.expected = detection::Expectation{
+      .outcome = detection::ExpectedOutcome::kPass,
+      .begin = {},
+      .closest = detection::ClosestApproach{At(12), At(16), {At(13), At(14)}, {1.1, 1.3}},
+      .until = At(17)};
+  const v1::CollisionEvent wire = Encode(event);
+  EXPECT_EQ(wire.lower_state().stamp_ns(), 1);
+  ExpectVector(wire.lower_state().position_m(), 1, 2, 3);
+  ExpectVector(wire.lower_state().velocity_m_s(), 4, 5, 6);
+  ExpectVector(wire.lower_state().acceleration_m_s2(), 7, 8, 9);
+  EXPECT_EQ(wire.higher_state().stamp_ns(), kLong);
+  ExpectVector(wire.higher_state().position_m(), 11, 12, 13);
+  EXPECT_EQ(wire.closest().from_ns(), 2);
+  EXPECT_EQ(wire.closest().until_ns(), 6);
+  EXPECT_EQ(wire.closest().at().earliest_ns(), 3);
+  EXPECT_EQ(wire.closest().at().latest_ns(), 4);
+  EXPECT_EQ(wire.closest().distance_m().lower(), 0.1);
+  EXPECT_EQ(wire.closest().distance_m().upper(), 0.3);
+  EXPECT_EQ(wire.expected().outcome(), v1::EXPECTED_PASS);
+  EXPECT_EQ(wire.expected().begin().earliest_ns(), std::numeric_limits<std::int64_t>::max());
+  EXPECT_EQ(wire.expected().closest().until_ns(), 16);
+  EXPECT_EQ(wire.expected().closest().distance_m().lower(), 1.1);
+  EXPECT_EQ(wire.expected().until_ns(), 17);
 }
 
 TEST(Encode, TheEarliestIntersectionNamesItsPair) {

@@ -243,7 +243,7 @@ TEST(CoarseTree, TheSecondTreeComesUnnoticed) {
       for (std::size_t i = 3; i < run.statuses().size(); ++i) {
         EXPECT_EQ(run.statuses()[i], v1::EVENT_CONFIRMED) << i;
       }
-      EXPECT_LE(last.separation_m().upper(), 0);
+      EXPECT_LE(last.proximity().separation_m().upper(), 0);
     } else {
       EXPECT_TRUE(run.statuses().empty()) << last.DebugString();
     }

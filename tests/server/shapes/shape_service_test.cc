@@ -39,7 +39,7 @@ TEST(ShapeService, AShapeCountsFromWhenItIsThere) {
     EXPECT_EQ(daemon.counter("shapes"), 1u);
     if (touching) {
       EXPECT_EQ(LastEvent(daemon).status(), v1::EVENT_CONFIRMED);
-      EXPECT_LE(LastEvent(daemon).separation_m().upper(), 0);
+      EXPECT_LE(LastEvent(daemon).proximity().separation_m().upper(), 0);
     } else {
       // What was settled before stays open: whether they touched then is unknown.
       EXPECT_EQ(LastEvent(daemon).status(), v1::EVENT_UNDECIDED) << LastEvent(daemon).DebugString();

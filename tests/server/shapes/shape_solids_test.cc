@@ -232,7 +232,7 @@ TEST(ShapeSolids, CollideInTheService) {
       const v1::CollisionEvent event = LastEvent(daemon);
       if (touching) {
         EXPECT_EQ(event.status(), v1::EVENT_CONFIRMED);
-        EXPECT_LE(event.separation_m().upper(), 0);
+        EXPECT_LE(event.proximity().separation_m().upper(), 0);
       } else {
         EXPECT_EQ(event.revision(), 0u) << event.DebugString();
       }

@@ -18,12 +18,14 @@ Swarm::Swarm(const SwarmOptions& options, Pace* pace, MotionLog* log)
 
 void Swarm::Handle(const Event& event) {
   if (event.status != EventStatus::kConfirmed) return;
+  const bool has_normal = event.proximity && event.proximity->normal;
+  const Vector3 normal = has_normal ? event.proximity->normal->direction : Vector3{};
   if (!answered_.emplace(event.lower, event.higher, event.contact).second) return;
   for (const auto& [id, side] : {std::pair(event.lower, 1), std::pair(event.higher, -1)}) {
     const auto found = by_slot_.find(id.slot);
     if (found == by_slot_.end()) continue;
     Member& member = members_[found->second];
-    if (member.agent && member.agent->id() == id) member.bounces.emplace_back(event.normal, side);
+    if (member.agent && member.agent->id() == id) member.bounces.emplace_back(normal, side);
   }
 }
 

@@ -24,13 +24,14 @@ Vector3 OutwardFromPoint(const Vector3& lever, const RigidState& own) {
 }  // namespace
 
 ShipContact ContactOf(const Event& event, bool lower, const RigidState& own, std::int64_t now_ns) {
-  ShipContact contact;
-  const double since =
-      event.evaluated_at_ns == kNever ? 0 : static_cast<double>(now_ns - event.evaluated_at_ns);
-  const double taken = std::clamp(since * 1e-9, -kOldestPoint, kOldestPoint);
-  contact.point_m = Sum(event.point_m, Scaled(own.velocity_m_s, taken));
-  if (event.normal_error_rad <= kNormalErrorMax) {
-    contact.outward = Scaled(Unit(event.normal), lower ? 1 : -1);
+  // Of a confirmed contact the point is known; without one nothing says where it is.
+  if (!event.proximity) return {.point_m = own.position_m};
+  const Proximity& proximity = *event.proximity;
+  const double since = 1e-9 * static_cast<double>(now_ns - proximity.at_ns);
+  const double taken = std::clamp(since, -kOldestPoint, kOldestPoint);
+  ShipContact contact{.point_m = Sum(proximity.point_m, Scaled(own.velocity_m_s, taken))};
+  if (proximity.normal && proximity.normal->error_rad <= kNormalErrorMax) {
+    contact.outward = Scaled(Unit(proximity.normal->direction), lower ? 1 : -1);
   }
   return contact;
 }

@@ -43,9 +43,9 @@ TEST_F(MonitorTest, AnEventArrivesWithAllItsFields) {
   message->set_limited_by(v1::LIMIT_GEOMETRY);
   message->mutable_begin()->set_earliest_ns(10);
   message->mutable_end()->set_latest_ns(20);
-  message->set_evaluated_at_ns(15);
-  message->mutable_separation_m()->set_lower(-2);
-  message->mutable_separation_m()->set_upper(-1);
+  message->mutable_proximity()->set_at_ns(15);
+  message->mutable_proximity()->mutable_separation_m()->set_lower(-2);
+  message->mutable_proximity()->mutable_separation_m()->set_upper(-1);
   std::vector<Event> events;
   EXPECT_EQ(Poll({.event = [&](const Event& event) { events.push_back(event); }}), 1u);
   ASSERT_EQ(events.size(), 1u);
@@ -56,15 +56,20 @@ TEST_F(MonitorTest, AnEventArrivesWithAllItsFields) {
   EXPECT_EQ(events[0].limited_by, EventLimit::kGeometry);
   EXPECT_EQ(events[0].begin.earliest_ns, 10);
   EXPECT_EQ(events[0].end.latest_ns, 20);
-  EXPECT_EQ(events[0].evaluated_at_ns, 15);
-  EXPECT_EQ(events[0].separation_lower_m, -2);
-  EXPECT_EQ(events[0].separation_upper_m, -1);
+  EXPECT_EQ(events[0].proximity->at_ns, 15);
+  EXPECT_EQ(events[0].proximity->separation_lower_m, -2);
+  EXPECT_EQ(events[0].proximity->separation_upper_m, -1);
 }
 
-TEST(Conversion, AnEventWithoutASeparationIsEvaluatedAtNoInstant) {
-  v1::CollisionEvent message;
-  message.set_evaluated_at_ns(15);
-  EXPECT_EQ(FromMessage(message).evaluated_at_ns, kNever);
+TEST(Conversion, WhatAnEventDoesNotTellIsAbsent) {
+  const Event event = FromMessage(v1::CollisionEvent());
+  EXPECT_FALSE(event.proximity || event.expected || event.closest);
+  EXPECT_FALSE(event.lower_state || event.higher_state);
+  v1::CollisionEvent evaluated;
+  evaluated.mutable_proximity()->set_at_ns(15);
+  const Proximity proximity = FromMessage(evaluated).proximity.value();
+  EXPECT_FALSE(proximity.normal || proximity.relative_velocity);
+  EXPECT_FALSE(proximity.lower_part || proximity.higher_part);
 }
 
 TEST_F(MonitorTest, TheStatusArrivesWithSimulatorsAndCounters) {

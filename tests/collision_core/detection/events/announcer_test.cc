@@ -18,17 +18,25 @@ Instant At(double seconds) {
 }
 
 /// Records the instants for which it is called.
-class AskedProximity final : public ProximitySource {
+class AskedEncounter final : public EncounterSource {
  public:
-  ProximityAnswer At(Instant at) override {
+  EncounterAnswer At(Instant at) override {
     called_for.push_back(at);
-    ProximityAnswer answer;
+    EncounterAnswer answer;
     answer.found.separation.upper = -0.5;
     answer.work = 7;
     return answer;
   }
 
+  ExpectationAnswer Expected() override {
+    ++expected;
+    ExpectationAnswer answer;
+    answer.expected.emplace().outcome = ExpectedOutcome::kPass;
+    return answer;
+  }
+
   std::vector<Instant> called_for;
+  int expected = 0;
 };
 
 class AnnouncerTest : public testing::Test {
@@ -44,7 +52,7 @@ class AnnouncerTest : public testing::Test {
     announcer_.Start(At(2));
     std::vector<ContactEpisode> taken;
     const PairOutlook outlook = OutlookOf(&settled, preview, &taken);
-    announcer_.Report(pair_, outlook, Finality::kOngoing, &proximity_, &published_);
+    announcer_.Report(pair_, outlook, Finality::kOngoing, &encounter_, &published_);
     return announcer_.events().empty() ? CollisionEvent{} : announcer_.events().back();
   }
 
@@ -62,7 +70,7 @@ class AnnouncerTest : public testing::Test {
   DetectorCounters counters_;
   Announcer announcer_{options_, &counters_};
   const PairName pair_{{.slot = 0}, {.slot = 1}, AgentIndex(0u), AgentIndex(1u), PairSlot(3u)};
-  AskedProximity proximity_;
+  AskedEncounter encounter_;
   PublishedEvent published_;
 };
 
@@ -119,12 +127,12 @@ TEST_F(AnnouncerTest, ABrokenBoundTakesBackWhatWasPublished) {
 TEST_F(AnnouncerTest, ComputesProximityAtTheFirstCertainContactAlone) {
   const ContactTracker nothing(At(0), Past::kKnown);
   const CollisionEvent confirmed = Report(nothing, Look({0.125, 0.25, 0.5, true, 1}));
-  EXPECT_EQ(proximity_.called_for, std::vector<Instant>{At(0.25)});
+  EXPECT_EQ(encounter_.called_for, std::vector<Instant>{At(0.25)});
   EXPECT_EQ(confirmed.evaluated_at, At(0.25));
   EXPECT_EQ(confirmed.separation_upper, -0.5);
   EXPECT_EQ(confirmed.pair_slot, 3u);
   Report(nothing, Look({0.125, 0.25, 0.5, true, 1}));
-  EXPECT_EQ(proximity_.called_for.size(), 1u) << "nothing is narrower than what was published";
+  EXPECT_EQ(encounter_.called_for.size(), 1u) << "nothing is narrower than what was published";
 }
 
 // Goal:   what a pair's event becomes when it is not watched any longer says what is known.

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision_core/detection/encounter/proximity_at.h"
 #include "collision_core/numeric/seconds.h"
 #include "tests/collision_core/detection/line.h"
 

@@ -31,6 +31,18 @@ std::optional<EventStatus> StatusOf(const std::string& name) {
   return std::nullopt;
 }
 
+bool IsExpected(const v1::CollisionEvent& event) {
+  switch (event.status()) {
+    case v1::EVENT_POSSIBLE:
+      return event.has_expected() && event.expected().outcome() == v1::EXPECTED_TOUCH;
+    case v1::EVENT_DISMISSED:
+    case v1::EVENT_WITHDRAWN:
+      return false;
+    default:
+      return true;
+  }
+}
+
 std::int64_t LeadTime(const v1::CollisionEvent& event, std::int64_t now_ns) {
   const std::int64_t begin_ns = event.begin().earliest_ns();
   if (event.began_before()) return 0;
@@ -59,12 +71,14 @@ std::int64_t NowOf(const v1::CollisionEvent& event, const WorldView& view) {
 std::vector<v1::CollisionEvent> EventSelection::Of(std::vector<v1::CollisionEvent> events,
                                                    const WorldView& view) const {
   std::erase_if(events, [&](const auto& event) { return !Fits(event, view); });
-  if (!filter_.top) return events;
-  const auto distance = [&view](const v1::CollisionEvent& event) {
-    return IsOfEarlierEpoch(event, view) ? kNever : DistanceInTime(event, NowOf(event, view));
+  const auto order = [&](const v1::CollisionEvent& event) {
+    const bool past = IsOfEarlierEpoch(event, view);
+    const std::int64_t distance = past ? kNever : DistanceInTime(event, NowOf(event, view));
+    return std::pair(!IsExpected(event), filter_.top ? distance : 0);
   };
   std::stable_sort(events.begin(), events.end(),
-                   [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+                   [&](const auto& a, const auto& b) { return order(a) < order(b); });
+  if (!filter_.top) return events;
   if (events.size() > *filter_.top) events.resize(*filter_.top);
   return events;
 }
@@ -101,6 +115,7 @@ bool EventSelection::Fits(const v1::CollisionEvent& event, const WorldView& view
   const auto status = static_cast<EventStatus>(event.status());
   const auto& statuses = filter_.statuses;
   const bool any = statuses.empty();
+  if (filter_.expected && status == EventStatus::kPossible && !IsExpected(event)) return false;
   if (!any && std::find(statuses.begin(), statuses.end(), status) == statuses.end()) return false;
   return FitsInTime(event, view) && IsOfAgents(event, view);
 }

@@ -21,10 +21,17 @@ struct EventFilter {
   std::optional<std::int64_t> within_ns = {};  ///< It begins at most this far ahead of now.
   std::optional<std::int64_t> since_ns = {};   ///< This revision is at most so old.
   std::optional<std::size_t> top = {};         ///< It is one of so many that are nearest in time.
+  /// If it is only possible, it is expected: IsExpected().
+  bool expected = false;
 };
 
 /// The status of this name, as Name(EventStatus) has it; nullopt: there is none.
 std::optional<EventStatus> StatusOf(const std::string& name);
+
+/// Whether the two touch, did or may have, or will if both keep the motion that they told. False of
+/// an event that is only possible and expected to pass, or of which nothing is expected, and of one
+/// that came to nothing.
+bool IsExpected(const v1::CollisionEvent& event);
 
 /// Published before the world's time began anew: its times are not those of now.
 bool IsOfEarlierEpoch(const v1::CollisionEvent& event, const WorldView& view);
@@ -50,7 +57,8 @@ class EventSelection {
 
   explicit EventSelection(EventFilter filter) : filter_(std::move(filter)) {}
 
-  /// Those that fit, in their order; with `top` the nearest first.
+  /// Those that fit, expected ones first; within these in their order, with `top` the nearest
+  /// first.
   std::vector<v1::CollisionEvent> Of(std::vector<v1::CollisionEvent> events,
                                      const WorldView& view) const;
 

@@ -17,28 +17,73 @@ std::string PointJson(const Vector3& vector) {
   return JsonVector({vector[0], vector[1], vector[2]});
 }
 
-/// What holds at the instant of evaluation; null without one.
-void AddEvaluation(const Event& event, JsonObject* object) {
-  object->Instant("evaluated_at", event.evaluated_at_ns);
-  const bool is_evaluated = event.evaluated_at_ns != kNever;
-  if (is_evaluated) {
-    object->Add("separation_m", JsonObject()
-                                    .Number("lower", event.separation_lower_m)
-                                    .Number("upper", event.separation_upper_m)
-                                    .Json());
-  } else {
-    object->Null("separation_m");
-  }
-  if (is_evaluated && event.separation_upper_m <= 0) {
-    object->Number("depth_lower_m", event.depth_lower_m)
-        .Add("point_m", PointJson(event.point_m))
-        .Number("point_error_m", event.point_error_m)
-        .Add("normal", PointJson(event.normal))
-        .Number("normal_error_rad", event.normal_error_rad);
-  } else {
-    object->Null("depth_lower_m").Null("point_m").Null("point_error_m").Null("normal");
-    object->Null("normal_error_rad");
-  }
+std::string RangeJson(double lower, double upper) {
+  return JsonObject().Number("lower", lower).Number("upper", upper).Json();
+}
+
+std::string PartJson(const std::optional<std::uint32_t>& part) {
+  return part ? std::to_string(*part) : "null";
+}
+
+std::string VelocityJson(const std::optional<RelativeVelocity>& relative) {
+  if (!relative) return "null";
+  return JsonObject()
+      .Add("velocity_m_s", PointJson(relative->velocity_m_s))
+      .Number("error_m_s", relative->error_m_s)
+      .Json();
+}
+
+std::string NormalJson(const std::optional<Normal>& normal) {
+  if (!normal) return "null";
+  return JsonObject()
+      .Add("direction", PointJson(normal->direction))
+      .Number("error_rad", normal->error_rad)
+      .Json();
+}
+
+std::string ProximityJson(const std::optional<Proximity>& proximity) {
+  if (!proximity) return "null";
+  return JsonObject()
+      .Instant("at", proximity->at_ns)
+      .Add("separation_m", RangeJson(proximity->separation_lower_m, proximity->separation_upper_m))
+      .Number("depth_lower_m", proximity->depth_lower_m)
+      .Add("point_m", PointJson(proximity->point_m))
+      .Number("point_error_m", proximity->point_error_m)
+      .Add("normal", NormalJson(proximity->normal))
+      .Add("lower_part", PartJson(proximity->lower_part))
+      .Add("higher_part", PartJson(proximity->higher_part))
+      .Add("relative_velocity", VelocityJson(proximity->relative_velocity))
+      .Json();
+}
+
+std::string StateJson(const std::optional<StateUsed>& state) {
+  if (!state) return "null";
+  return JsonObject()
+      .Instant("stamp", state->stamp_ns)
+      .Add("position_m", PointJson(state->position_m))
+      .Add("velocity_m_s", PointJson(state->velocity_m_s))
+      .Add("acceleration_m_s2", PointJson(state->acceleration_m_s2))
+      .Json();
+}
+
+std::string ClosestJson(const std::optional<ClosestApproach>& closest) {
+  if (!closest) return "null";
+  return JsonObject()
+      .Instant("from", closest->from_ns)
+      .Instant("until", closest->until_ns)
+      .Add("at", BracketJson(closest->at))
+      .Add("distance_m", RangeJson(closest->distance_lower_m, closest->distance_upper_m))
+      .Json();
+}
+
+std::string ExpectedJson(const std::optional<Expectation>& expected) {
+  if (!expected) return "null";
+  return JsonObject()
+      .Text("outcome", Name(expected->outcome))
+      .Add("begin", BracketJson(expected->begin))
+      .Add("closest", ClosestJson(expected->closest))
+      .Instant("until", expected->until_ns)
+      .Json();
 }
 
 }  // namespace
@@ -60,9 +105,13 @@ void AddEvent(const v1::CollisionEvent& message, const WorldView& view, JsonObje
       .Add("end", BracketJson(event.end))
       .Flag("continuous", event.continuous)
       .Flag("began_before", event.began_before)
-      .Number("margin_m", event.margin_m);
-  AddEvaluation(event, object);
-  object->Count("level", event.level)
+      .Number("margin_m", event.margin_m)
+      .Add("proximity", ProximityJson(event.proximity))
+      .Add("lower_state", StateJson(event.lower_state))
+      .Add("higher_state", StateJson(event.higher_state))
+      .Add("expected", ExpectedJson(event.expected))
+      .Add("closest", ClosestJson(event.closest))
+      .Count("level", event.level)
       .Count("work_units", event.work_units)
       .Text("limited_by", Name(event.limited_by))
       .TextOrNull("because", event.because)

@@ -27,20 +27,23 @@ void OpenEvents::Add(const std::vector<v1::CollisionEvent>& revisions) {
 
 std::vector<const v1::CollisionEvent*> OpenEvents::Nearest(const WorldView& view,
                                                            std::size_t count) const {
-  std::vector<std::tuple<std::int64_t, bool, const v1::CollisionEvent*>> order;
+  std::vector<std::tuple<bool, std::int64_t, bool, const v1::CollisionEvent*>> order;
   for (const auto& [key, event] : events_) {
     if (IsOfEarlierEpoch(event, view)) continue;
     const bool may = event.status() == v1::EVENT_POSSIBLE;
-    order.emplace_back(DistanceInTime(event, NowOf(event, view)), may, &event);
+    order.emplace_back(!IsExpected(event), DistanceInTime(event, NowOf(event, view)), may, &event);
   }
   // The order of the keys, not of the addresses, decides the rest.
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
-    return std::tie(std::get<0>(a), std::get<1>(a)) < std::tie(std::get<0>(b), std::get<1>(b));
+    const auto key = [](const auto& one) {
+      return std::tie(std::get<0>(one), std::get<1>(one), std::get<2>(one));
+    };
+    return key(a) < key(b);
   });
   std::vector<const v1::CollisionEvent*> nearest;
   for (const auto& one : order) {
     if (nearest.size() == count) break;
-    nearest.push_back(std::get<2>(one));
+    nearest.push_back(std::get<3>(one));
   }
   return nearest;
 }

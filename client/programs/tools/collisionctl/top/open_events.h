@@ -20,8 +20,8 @@ class OpenEvents {
   /// Revisions in the order of their publication, as WorldView::TakeEvents() gives them.
   void Add(const std::vector<v1::CollisionEvent>& revisions);
 
-  /// The `count` nearest in time, the nearest first; of equally near ones those that touch come
-  /// before those that may. They belong to this object.
+  /// The `count` nearest in time: first what is expected (IsExpected()), the nearest first; of
+  /// equally near ones those that touch come before those that may. They belong to this object.
   std::vector<const v1::CollisionEvent*> Nearest(const WorldView& view, std::size_t count) const;
 
   std::size_t possible() const { return events_.size() - confirmed(); }

@@ -1,5 +1,6 @@
 #include "client/programs/tools/collisionctl/top/top_page.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "client/api/event_text.h"
@@ -36,16 +37,40 @@ std::string BeginText(const Event& event) {
 }
 
 std::string GapText(const Event& event) {
-  if (event.evaluated_at_ns == kNever) return "-";
-  const std::string upper = MetresText(event.separation_upper_m, Rounding::kUp);
-  if (event.separation_upper_m <= 0) return "≤ " + upper;
-  return "[" + MetresText(event.separation_lower_m, Rounding::kDown) + ", " + upper + "]";
+  if (!event.proximity) return "-";
+  const Proximity& proximity = *event.proximity;
+  const std::string upper = MetresText(proximity.separation_upper_m, Rounding::kUp);
+  if (proximity.separation_upper_m <= 0) return "≤ " + upper;
+  return "[" + MetresText(proximity.separation_lower_m, Rounding::kDown) + ", " + upper + "]";
+}
+
+/// Of a pair that may touch: whether it does if both keep their motion.
+std::string ExpectedText(const Event& event) {
+  if (!event.expected) return "-";
+  const Expectation& expected = *event.expected;
+  switch (expected.outcome) {
+    case ExpectedOutcome::kTouch:
+      return "touch " + TimeText(expected.begin.earliest_ns, 0, 3, Rounding::kDown);
+    case ExpectedOutcome::kPass:
+      return expected.closest ? "pass ≥ " +
+                                    MetresText(std::max(0.0, expected.closest->distance_lower_m),
+                                               Rounding::kDown) +
+                                    " m"
+                              : "pass";
+    case ExpectedOutcome::kUndecided:
+      return "undecided";
+  }
+  return "-";
 }
 
 std::vector<std::string> Row(const v1::CollisionEvent& message, const WorldView& view) {
   const Event event = FromMessage(message);
-  return {WhenText(message, NowOf(message, view)), BeginText(event), Name(event.status),
-          GapText(event), view.FullName(event.lower) + " × " + view.FullName(event.higher)};
+  return {WhenText(message, NowOf(message, view)),
+          BeginText(event),
+          Name(event.status),
+          GapText(event),
+          ExpectedText(event),
+          view.FullName(event.lower) + " × " + view.FullName(event.higher)};
 }
 
 std::vector<std::string> LinesOf(const std::string& text) {
@@ -65,7 +90,8 @@ std::vector<std::string> TopLines(const WorldView& view, const OpenEvents& event
       "world " + status.world() + ", now " + SinceText(status.now_ns()) +
           "; agents: " + std::to_string(status.agents()) + "; pairs that touch: " +
           std::to_string(events.confirmed()) + ", that may: " + std::to_string(events.possible())};
-  std::vector<std::vector<std::string>> table = {{"WHEN", "BEGIN", "STATUS", "GAP [m]", "PAIR"}};
+  std::vector<std::vector<std::string>> table = {
+      {"WHEN", "BEGIN", "STATUS", "GAP [m]", "EXPECTED", "PAIR"}};
   for (const v1::CollisionEvent* event : events.Nearest(view, rows)) {
     table.push_back(Row(*event, view));
   }

@@ -58,6 +58,18 @@ TEST_F(EventFilterTest, WithoutAnyAllAreTakenInTheirOrder) {
   EXPECT_EQ(Of({}, {Make(1, 5), Make(2, 3)}), (Contacts{1, 2}));
 }
 
+TEST_F(EventFilterTest, ExpectedOnesComeFirstAndAloneIfAsked) {
+  v1::CollisionEvent pass = Make(1, 5), touch = Make(2, 9), contact = Make(3, 7), over = Make(4, 1);
+  pass.mutable_expected()->set_outcome(v1::EXPECTED_PASS);
+  touch.mutable_expected()->set_outcome(v1::EXPECTED_TOUCH);
+  contact.set_status(v1::EVENT_CONFIRMED);
+  over.set_status(v1::EVENT_DISMISSED);
+  EXPECT_EQ(Of({}, {pass, touch, over, contact}), (Contacts{2, 3, 1, 4}));
+  EXPECT_EQ(Of({.top = 3}, {pass, touch, over, contact}), (Contacts{3, 2, 4}));
+  EXPECT_EQ(Of({.expected = true}, {pass, touch, over, contact}), (Contacts{2, 3, 4}))
+      << "what has come to nothing is not possible any more";
+}
+
 TEST_F(EventFilterTest, AnAgentIsOnEitherSideWithOrWithoutItsSimulator) {
   std::uint32_t contact = 0;
   for (const char* name : {"ada", "people:ada", "bob", "robots:bob"}) {

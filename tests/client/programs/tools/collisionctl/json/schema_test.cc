@@ -82,6 +82,20 @@ class SchemaTest : public CollisionctlTest {
   }
 };
 
+void FillEncounter(v1::CollisionEvent* event) {
+  v1::Proximity* proximity = event->mutable_proximity();
+  proximity->mutable_normal()->mutable_direction()->set_z(1);
+  proximity->set_lower_part(3);
+  proximity->mutable_relative_velocity()->set_error_m_s(0.5);
+  event->mutable_lower_state()->set_stamp_ns(3);
+  event->mutable_higher_state()->mutable_velocity_m_s()->set_x(1);
+  event->mutable_closest()->mutable_at()->set_latest_ns(9);
+  event->mutable_closest()->mutable_distance_m()->set_upper(
+      std::numeric_limits<double>::infinity());
+  event->mutable_expected()->set_outcome(v1::EXPECTED_PASS);
+  event->mutable_expected()->mutable_closest()->set_until_ns(11);
+}
+
 TEST_F(SchemaTest, TakesAnEmptyWorld) {
   Status();
   Poll(1);
@@ -102,10 +116,11 @@ TEST_F(SchemaTest, TakesEventsOfEveryStatusEvaluatedOrNot) {
     event.mutable_begin()->set_earliest_ns(status * std::int64_t{1'000'000'000});
     event.mutable_begin()->set_latest_ns(kNever);
     documents.push_back(EventJson(event, view_, ""));
-    event.set_evaluated_at_ns(5);
-    event.mutable_separation_m()->set_upper(status - 3);
+    event.mutable_proximity()->set_at_ns(5);
+    event.mutable_proximity()->mutable_separation_m()->set_upper(status - 3);
     event.set_limited_by(static_cast<v1::EventLimit>(status % 4));
     event.set_contacts_sequence(7);
+    FillEncounter(&event);
     event.mutable_lower_label()->set_simulator_name("people");
     event.mutable_lower_label()->add_tags()->set_key("kind");
     documents.push_back(EventJson(event, view_, "A sentence."));

@@ -49,24 +49,34 @@ class TopTest : public CollisionctlTest {
   OpenEvents open_;
 };
 
-TEST_F(TopTest, HasTheNearestFirstAndNoMoreThanTheRows) {
+TEST_F(TopTest, HasWhatIsExpectedFirstThenTheNearestAndNoMoreThanTheRows) {
   Add(Make(1, v1::EVENT_POSSIBLE, 20'345'678'901));
-  Add(Make(2, v1::EVENT_POSSIBLE, 14'000'000'000));
-  Add(Make(3, v1::EVENT_POSSIBLE, 12'000'000'000));
+  v1::CollisionEvent touch = Make(2, v1::EVENT_POSSIBLE, 14'000'000'000);
+  touch.mutable_expected()->set_outcome(v1::EXPECTED_TOUCH);
+  touch.mutable_expected()->mutable_begin()->set_earliest_ns(14'500'000'000);
+  Add(touch);
+  v1::CollisionEvent pass = Make(3, v1::EVENT_POSSIBLE, 12'000'000'000);
+  pass.mutable_expected()->set_outcome(v1::EXPECTED_PASS);
+  pass.mutable_expected()->mutable_closest()->mutable_distance_m()->set_lower(1.9);
+  Add(pass);
   Add(Make(5, v1::EVENT_POSSIBLE, 12'250'000'000));
   v1::CollisionEvent contact = Make(4, v1::EVENT_CONFIRMED, 11'000'000'000);
   contact.mutable_begin()->set_latest_ns(11'000'100'000);
-  contact.set_evaluated_at_ns(11'000'100'000);
-  contact.mutable_separation_m()->set_upper(-0.1234);
+  contact.mutable_proximity()->set_at_ns(11'000'100'000);
+  contact.mutable_proximity()->mutable_separation_m()->set_upper(-0.1234);
   Add(contact);
   EXPECT_EQ(Page(4),
             "WELL: it serves, and no simulator is here yet\n"
             "world lab, now 12.345 s; agents: 1; pairs that touch: 1, that may: 4\n"
-            "WHEN          BEGIN             STATUS     GAP [m]   PAIR\n"
-            "now           [11.000, 11.001]  confirmed  ≤ -0.123  ada (people) × bob4 (robots)\n"
-            "now?          [12.000, open]    possible   -         ada (people) × bob3 (robots)\n"
-            "in ≈ 0.250 s  [12.250, open]    possible   -         ada (people) × bob5 (robots)\n"
-            "in ≥ 1.654 s  [14.000, open]    possible   -         ada (people) × bob2 (robots)\n");
+            "WHEN          BEGIN             STATUS     GAP [m]   EXPECTED      PAIR\n"
+            "now           [11.000, 11.001]  confirmed  ≤ -0.123  -             "
+            "ada (people) × bob4 (robots)\n"
+            "in ≥ 1.654 s  [14.000, open]    possible   -         touch 14.500  "
+            "ada (people) × bob2 (robots)\n"
+            "now?          [12.000, open]    possible   -         pass ≥ 1.9 m  "
+            "ada (people) × bob3 (robots)\n"
+            "in ≈ 0.250 s  [12.250, open]    possible   -         -             "
+            "ada (people) × bob5 (robots)\n");
 }
 
 TEST_F(TopTest, AnEventThatIsOverLeavesIt) {

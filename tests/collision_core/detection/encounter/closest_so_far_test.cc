@@ -1,0 +1,77 @@
+// Goal:   the closest approach of a pair is followed from segment to segment without a gap, and
+//         begins anew where nothing is known.
+// Method: a ball that passes another one, states each quarter of a second; the least distance is 1
+//         m at 2 s.
+#include "collision_core/detection/encounter/closest_so_far.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/collision_core/detection/line.h"
+
+namespace collision::detection {
+namespace {
+
+constexpr std::uint64_t kPlenty = 100000;
+
+History Moving(const Vector3d& p, const Vector3d& v, double acceleration_max, double broken = -1) {
+  History history;
+  for (int k = 0; k <= 16; ++k) {
+    const double t = 0.25 * k;
+    motion::SpaceTimeBound bound;
+    bound.state = State(t, p + v * t, v);
+    bound.limits = {.radius = 1, .acceleration_max = acceleration_max};
+    history.Push({.bound = bound, .link = t == broken ? Link::kBroken : Link::kFollows}, 64);
+  }
+  return history;
+}
+
+PublishedEvent From(double seconds) {
+  PublishedEvent published;
+  published.announced = true;
+  published.followed_until = At(seconds);
+  return published;
+}
+
+TEST(ClosestSoFar, IsThatOfAllSegmentsTogether) {
+  for (const double acceleration_max : {0.0, 0.5}) {
+    const History a = Moving({0, 0, 0}, {0, 0, 0}, acceleration_max);
+    const History b = Moving({-4, 3, 0}, {2, 0, 0}, acceleration_max);
+    PublishedEvent published = From(0.5);
+    for (double t = 0.75; t <= 4; t += 0.25) {
+      FollowClosest(a, b, At(t), kPlenty, &published);
+      ASSERT_TRUE(published.closest);
+      EXPECT_EQ(published.closest->from, At(0.5));
+      EXPECT_EQ(published.closest->until, At(t));
+    }
+    EXPECT_LE(published.closest->distance.lower, 1);
+    EXPECT_GE(published.closest->distance.upper, 1);
+    // Half-way between two states each is known to within M/8 · (1/4)².
+    EXPECT_LE(published.closest->distance.width(), 1e-5 + 6 * acceleration_max / 128);
+    EXPECT_LE(published.closest->at.earliest, At(2));
+    EXPECT_GE(published.closest->at.latest, At(2));
+    EXPECT_LE(published.closest->at.latest, At(acceleration_max == 0 ? 2.02 : 2.3));
+  }
+}
+
+TEST(ClosestSoFar, WhatComesLaterAndIsFartherCostsNextToNothing) {
+  const History a = Moving({0, 0, 0}, {0, 0, 0}, 0), b = Moving({-4, 3, 0}, {2, 0, 0}, 0);
+  PublishedEvent published = From(0);
+  FollowClosest(a, b, At(2.5), kPlenty, &published);
+  const ClosestApproach before = *published.closest;
+  EXPECT_LT(FollowClosest(a, b, At(3.5), kPlenty, &published), 40u);
+  EXPECT_EQ(published.closest->at, before.at);
+  EXPECT_EQ(published.closest->until, At(3.5));
+}
+
+TEST(ClosestSoFar, BeginsAnewAfterABrokenBound) {
+  const History a = Moving({0, 0, 0}, {0, 0, 0}, 0, 2.25);
+  const History b = Moving({-4, 3, 0}, {2, 0, 0}, 0);
+  PublishedEvent published = From(0);
+  FollowClosest(a, b, At(4), kPlenty, &published);
+  ASSERT_TRUE(published.closest);
+  EXPECT_EQ(published.closest->from, At(2.25)) << "from 2 to 2.25 s nothing is known";
+  EXPECT_GT(published.closest->distance.lower, 1.01);
+}
+
+}  // namespace
+}  // namespace collision::detection
