@@ -99,8 +99,8 @@ TEST(BrokenBound, NeverExceedsWhatTrulyHappened) {
     MotionState next = motion.Told(before, ns);
     next.p_WA += error * random.UnitVector();
     next.v_WA += error * random.UnitVector();
-    const bool breached = CheckContract(before, next, OrientationUse::kIgnored).verdict ==
-                          ContractVerdict::kBreached;
+    const bool breached =
+        CheckContract(before, next, OrientationUse::kIgnored).verdict == ContractVerdict::kBreached;
     if (deviation <= before.limits.acceleration_max) {
       ++honest;
       ASSERT_FALSE(breached) << i;
@@ -132,8 +132,7 @@ TEST(BrokenBound, IsNearlyTightForAKnownAccelerationThatIsWrong) {
     before.state.a_WA = random.Uniform(0, 20) * random.UnitVector();
     const double beyond = random.LogUniform(1e-3, 1e3);
     const Vector3d acceleration =
-        before.state.a_WA +
-        before.limits.acceleration_max * (1 + beyond) * random.UnitVector();
+        before.state.a_WA + before.limits.acceleration_max * (1 + beyond) * random.UnitVector();
     const std::int64_t ns = kSecond / 10 + static_cast<std::int64_t>(random.Below(2 * kSecond));
     TrueMotion motion(before.state);
     motion.Go(Long(ns) / 1'000'000'000, acceleration);
@@ -149,7 +148,7 @@ TEST(BrokenBound, IsNearlyTightForAKnownAccelerationThatIsWrong) {
   }
 }
 
-// Goal:   a speed above the cap is named as such, never above the greatest true speed, nearly tight.
+// Goal:   a speed above the cap is named, never above the greatest true speed and nearly tight.
 // Method: speeding up under the declared acceleration from below the cap to above it.
 TEST(BrokenBound, NamesASpeedAboveTheCap) {
   Random random(2103);
