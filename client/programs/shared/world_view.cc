@@ -43,8 +43,8 @@ bool IsHeld(const AgentView& agent) {
 MessageMonitor::Callbacks WorldView::Callbacks() {
   MessageMonitor::Callbacks callbacks;
   callbacks.hello = [this](const v1::ServiceHello& hello) {
-    if (skews_.size() >= kHellosMax) skews_.clear();
-    skews_[hello.service_id()] = hello.skew_max_ns();
+    if (hellos_.size() >= kHellosMax) hellos_.clear();
+    hellos_[hello.service_id()] = hello;
   };
   callbacks.status = [this](const v1::ServiceStatus& status) {
     status_ = status;
@@ -84,8 +84,18 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
 
 std::int64_t WorldView::skew_max_ns() const {
   if (!status_) return 0;
-  const auto found = skews_.find(status_->service_id());
-  return found == skews_.end() ? 0 : found->second;
+  const auto found = hellos_.find(status_->service_id());
+  return found == hellos_.end() ? 0 : found->second.skew_max_ns();
+}
+
+std::optional<std::string> WorldView::HelloExtension(const std::string& key) const {
+  if (!status_) return std::nullopt;
+  const auto found = hellos_.find(status_->service_id());
+  if (found == hellos_.end()) return std::nullopt;
+  for (const v1::KeyValue& extension : found->second.extensions()) {
+    if (extension.key() == key) return extension.value();
+  }
+  return std::nullopt;
 }
 
 std::vector<v1::ServiceStatus> WorldView::Standbys() const {

@@ -86,6 +86,9 @@ class WorldView {
   /// that has not come.
   std::int64_t skew_max_ns() const;
 
+  /// The extension of the hello of the service in force; nullopt: it has none of this key.
+  std::optional<std::string> HelloExtension(const std::string& key) const;
+
   /// The newest status of each service that stands by and was heard within kStandbySilence.
   std::vector<v1::ServiceStatus> Standbys() const;
 
@@ -157,7 +160,7 @@ class WorldView {
   };
 
   std::optional<v1::ServiceStatus> status_;
-  std::map<std::uint64_t, std::int64_t> skews_;           ///< skew_max_ns of the hello, by service.
+  std::map<std::uint64_t, v1::ServiceHello> hellos_;      ///< By service.
   std::map<std::uint64_t, Standby> standbys_;             ///< By service.
   std::map<std::uint64_t, v1::SimulatorReport> refused_;  ///< By simulator.
   std::optional<v1::EarliestIntersection> earliest_;

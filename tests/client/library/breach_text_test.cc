@@ -16,7 +16,8 @@ namespace {
 std::string NameOf(const AgentId&) { return "crane-3"; }
 
 Breach ABreach() {
-  return {.field = "acceleration_max_m_s2",
+  return {.agent = {},
+          .field = "acceleration_max_m_s2",
           .declared = 2,
           .seen = 3.4499,
           .from_ns = 1'200'000'000,

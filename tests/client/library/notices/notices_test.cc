@@ -155,7 +155,8 @@ TEST_F(NoticesTest, EachReasonAndFieldOfARefusalIsToldOnceUpToALimit) {
 }
 
 TEST_F(NoticesTest, ABreachIsToldOnceForEachAgentAndBound) {
-  Breach breach{.field = "speed_max_m_s",
+  Breach breach{.agent = {},
+                .field = "speed_max_m_s",
                 .declared = 2,
                 .seen = 3,
                 .from_ns = 1'500'000'000,
