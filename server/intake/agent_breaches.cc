@@ -25,8 +25,8 @@ const char* FieldOf(motion::DeclaredBound bound) {
 void LogBreach(const v1::AgentBreach& breach, const std::string& simulator) {
   LogAbout(
       spdlog::level::warn, "declared bound broken", simulator,
-      fmt::format("simulator \"{}\" slot {} generation {} broke {}: declared {:.6g}, at least "
-                  "{:.6g} seen between {} ns and {} ns, breach {} of this agent; detection "
+      fmt::format("simulator \"{}\" slot {} generation {} broke {}: declared {}, at least "
+                  "{} seen between {} ns and {} ns, breach {} of this agent; detection "
                   "goes on from the new state. Declare wider bounds, or mark a jump as a "
                   "discontinuity",
                   simulator, breach.slot(), breach.generation(), breach.field(), breach.declared(),

@@ -16,6 +16,7 @@ class BreachTest : public testing::Test {
   static v1::Config ConfigOfTwo() {
     v1::Config config = server::Simulated();
     config.mutable_clock()->set_simulators_awaited(2);
+    config.mutable_clock()->set_grant_ahead_max_s(0.1);  // each state in a round of its own
     return config;
   }
 

@@ -3,6 +3,7 @@
 // Method: few agents on lines, whose meetings are exact; states every 1/16 s, one clock.
 #include <gtest/gtest.h>
 
+#include "collision_core/base/check.h"
 #include "tests/collision_core/detection/line.h"
 
 namespace collision::detection {

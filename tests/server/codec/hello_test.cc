@@ -60,9 +60,11 @@ TEST(Hello, TellsWhichClassesMeetIfThereIsRoom) {
   add("person");
   config.add_excluded();
   const auto told = [&config] {
-    std::map<std::string, std::string> told;
-    for (const v1::KeyValue& one : HelloOf(config).extensions()) told[one.key()] = one.value();
-    return told;
+    std::map<std::string, std::string> extensions;
+    for (const v1::KeyValue& one : HelloOf(config).extensions()) {
+      extensions[one.key()] = one.value();
+    }
+    return extensions;
   };
   EXPECT_EQ(told(), (std::map<std::string, std::string>{
                         {"excluded", "1"}, {"class.robot", "person robot"}, {"class.person", ""}}));

@@ -25,8 +25,8 @@ class AgentBreachesTest : public testing::Test {
   void SetTime(std::int64_t ns) { world_.SetReading({.wall_ns = ns, .monotonic_ns = ns}); }
 
   /// The next breach of this agent, at its next millisecond.
-  void Break(const std::string& simulator, std::uint32_t slot, std::uint32_t generation = 1) {
-    const detection::AgentId id{SimulatorId(simulator), 1, slot, generation};
+  void Break(const std::string& simulator, std::uint32_t slot) {
+    const detection::AgentId id{SimulatorId(simulator), slot, 1, 1};
     detection::AgentDeclaration ball;
     ball.limits.radius = 0.1;
     ball.limits.acceleration_max = 2;
@@ -104,9 +104,8 @@ TEST_F(AgentBreachesTest, WhatWasCountedOfARunThatIsOverIsNotTold) {
   Break("alpha", 0);
   Break("alpha", 0);
   EXPECT_EQ(breaches_.Take().size(), 1u);
-  const std::string name = "alpha";
-  world_.ClaimFor(SimulatorId(name), kSender, 2, &name);
-  ASSERT_EQ(world_.Find(SimulatorId(name))->run(), 2u);
+  world_.StartRun(world_.Find(SimulatorId("alpha")), kSender, 2, false);
+  ASSERT_EQ(world_.Find(SimulatorId("alpha"))->run(), 2u);
   SetTime(kSecond);
   EXPECT_TRUE(breaches_.Take().empty());
 }

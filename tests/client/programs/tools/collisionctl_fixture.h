@@ -77,7 +77,7 @@ class CollisionctlTest : public testing::Test {
     breach->set_generation(1);
     breach->set_field("acceleration_max_m_s2");
     breach->set_declared(2);
-    breach->set_seen(3.4);
+    breach->set_seen(3.5);
     breach->set_from_ns(1'200'000'000);
     breach->set_at_ns(1'300'000'000);
     breach->set_count(4);

@@ -31,14 +31,14 @@ TEST_F(CollisionctlTest, AgentsPageTellsWhatAgentsBroke) {
   Break(6, 1);  // of a former run
   Poll(4);
   const std::string broke =
-      "ball (sim) broke acceleration_max_m_s2: declared 2, at least 3.4 seen "
+      "ball (sim) broke acceleration_max_m_s2: declared 2, at least 3.5 seen "
       "between 1.200 s and 1.300 s (4 times)\n";
   const std::string page = AgentsPage(view_);
   ASSERT_GT(page.size(), broke.size());
   EXPECT_EQ(page.substr(page.size() - broke.size()), broke);
   EXPECT_EQ(page.find("honest (sim) broke"), std::string::npos);
   EXPECT_NE(AgentsJson(view_).find("\"breach\":{\"count\":4,\"field\":\"acceleration_max_m_s2\","
-                                   "\"declared\":2,\"seen\":3.4,\"from_ns\":\"1200000000\""),
+                                   "\"declared\":2,\"seen\":3.5,\"from_ns\":\"1200000000\""),
             std::string::npos)
       << AgentsJson(view_);
   EXPECT_NE(AgentsJson(view_).find("\"breach\":null"), std::string::npos);
