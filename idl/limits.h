@@ -100,6 +100,7 @@ inline constexpr std::size_t kLabelMax = 64;         ///< Of frames, epochs, ver
 inline constexpr std::size_t kClassNameMax = 32;     ///< AgentDescription::class_name.
 inline constexpr int kPartnersListedMax = 16;        ///< Each list of names of a description.
 inline constexpr std::size_t kRefusedFieldMax = 64;  ///< Rejection::field.
+inline constexpr std::size_t kBreachFieldMax = 64;   ///< AgentBreach::field.
 inline constexpr std::size_t kRefusalDetailMax = 256;   ///< Rejection::detail.
 inline constexpr std::size_t kExtensionValueMax = 256;  ///< KeyValue::value.
 inline constexpr int kTagsMax = 16;                     ///< AgentDescription::tags.

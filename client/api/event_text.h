@@ -33,6 +33,10 @@ std::string Padded(std::string text, std::size_t columns);
 /// Metres, or any other value, with three digits that are not above (down) or below (up) it.
 std::string MetresText(double value, Rounding rounding);
 
+/// "crane-3 broke acceleration_max_m_s2: declared 2, at least 3.4 seen between 1.200 s and 1.300 s
+/// (4 times)". What was seen is rounded down.
+std::string BreachText(const Breach& breach, const AgentNamer& name, std::int64_t origin_ns);
+
 /// The event in one line without a newline, with columns at the same places in every line:
 ///   599.734 s  confirmed  iridium-33 × cosmos-2251  #1 r3  begin [599.734236, 599.734370]  end
 ///   open  gap ≤ -0.12 m

@@ -22,7 +22,8 @@ class Receiver;
 struct MonitorOptions {
   std::string world = "default";  ///< 1 to 64 of [A-Za-z0-9_-].
   std::uint32_t domain = 0;       ///< DDS domain, 0 to 230.
-  bool service = true;      ///< Status, events, earliest intersection, clearances, rejections.
+  /// Status, events, earliest intersection, clearances, rejections, breaches.
+  bool service = true;
   bool simulators = false;  ///< Descriptions, removals, states and clocks of all simulators.
 };
 
@@ -108,6 +109,8 @@ class Monitor {
     std::function<void(const ServiceStatus&)> status = {};
     std::function<void(const AgentId&, const Clearance&)> clearance = {};
     std::function<void(const Rejection&)> rejection = {};
+    /// Of any agent: at most once a second each, of those that stand when the monitor comes, too.
+    std::function<void(const Breach&)> breach = {};
     std::function<void(const DescribedAgent&)> description = {};
     /// The agent in this slot of this simulator has left.
     std::function<void(std::uint64_t simulator, std::uint32_t slot)> removal = {};

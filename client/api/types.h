@@ -250,6 +250,22 @@ struct Rejection {
   bool lasting = false;
 };
 
+/// What an agent broke of what it declared: no motion under its declaration leads from one of its
+/// states to the next. BOUNDS.md says what to do.
+struct Breach {
+  AgentId agent;
+  /// The first bound that is broken on its own, as in the IDL: "acceleration_max_m_s2",
+  /// "speed_max_m_s", "angular_acceleration_max_rad_s2"; "thrust_direction", of a state.
+  std::string field;
+  double declared = 0;  ///< Its value; of a direction 0.
+  /// What the motion reached, certainly at least; of a direction how far it fell below 0. Infinity:
+  /// no value explains the two states.
+  double seen = 0;
+  std::int64_t from_ns = 0;  ///< Stamp of the last honest state ...
+  std::int64_t at_ns = 0;    ///< ... and of the one that does not follow from it.
+  std::uint64_t count = 0;   ///< Breaches of this agent so far; may be newer than the rest.
+};
+
 /// How long one agent is clear: before `clear_until_ns` it begins no contact that the service has
 /// not announced as possible.
 struct Clearance {

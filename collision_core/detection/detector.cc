@@ -18,6 +18,10 @@ UpdateOutcome Detector::Update(const AgentId& id, const motion::MotionState& sta
                                Instant effective_from) {
   return implementation_->Update(id, state, effective_from);
 }
+
+motion::BrokenBound Detector::ExplainLastBreach() const {
+  return implementation_->ExplainLastBreach();
+}
 bool Detector::Redeclare(const AgentId& id, const AgentDeclaration& declaration,
                          Instant effective_from) {
   return implementation_->Redeclare(id, declaration, effective_from);

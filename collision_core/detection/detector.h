@@ -17,7 +17,7 @@
 #include "collision_core/detection/pairs/owner_work.h"
 #include "collision_core/detection/step/detector_counters.h"
 #include "collision_core/detection/step/detector_options.h"
-#include "collision_core/motion/contract.h"
+#include "collision_core/motion/broken_bound.h"
 
 namespace collision::detection {
 
@@ -66,6 +66,11 @@ class Detector {
 
   /// `effective_from` is used where the state jumps, widens or breaches.
   UpdateOutcome Update(const AgentId& id, const motion::MotionState& state, Instant effective_from);
+
+  /// What the newest state that breached broke, in numbers: of the last Update() that returned
+  /// kBreached, which there must be. Some 30 contract checks, so a caller asks only for what it
+  /// tells.
+  motion::BrokenBound ExplainLastBreach() const;
 
   /// A new declaration. The filter and everything wider than before are in force at once
   /// (clearances report it as effective from `effective_from`); narrower limits from the next state

@@ -58,7 +58,7 @@ UpdateOutcome Detector::Implementation::Update(const AgentId& id, const motion::
     case motion::ContractVerdict::kBreached:
       break;
   }
-  return Breach(next);
+  return Breach(next, orientation);
 }
 
 // The agent had expired: it starts anew.
@@ -105,14 +105,21 @@ UpdateOutcome Detector::Implementation::Keep(const NextState& next,
   return UpdateOutcome::kKept;
 }
 
-UpdateOutcome Detector::Implementation::Breach(const NextState& next) {
+UpdateOutcome Detector::Implementation::Breach(const NextState& next,
+                                               motion::OrientationUse orientation) {
   ++counters_.breaches;
   const Instant last_honest = agents_[next.agent].stamp();
+  last_breach_ = {agents_[next.agent].bound(), next.state, orientation};
   agents_.Store(next.agent, next.state, Link::kBroken);
   clearances_.RecordBreach(next.agent, last_honest);
   Renew(next.agent, {next.stamp(), ClearanceCause::kBreach, next.effective_from});
   pairs_.MarkBroken(next.agent, last_honest);
   return UpdateOutcome::kBreached;
+}
+
+motion::BrokenBound Detector::Implementation::ExplainLastBreach() const {
+  CORE_CHECK(last_breach_.has_value(), "only a breach is explained");
+  return ExplainBreach(last_breach_->before, last_breach_->next, last_breach_->orientation);
 }
 
 bool Detector::Implementation::Redeclare(const AgentId& id, const AgentDeclaration& declaration,

@@ -1,6 +1,7 @@
 // How the components of the detector work together. Only detector*.cc include this.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "collision_core/detection/agents/agent_table.h"
@@ -21,6 +22,7 @@ class Detector::Implementation {
   bool Admit(const AgentId& id, const AgentDeclaration& declaration,
              const motion::MotionState& state, Instant effective_from);
   UpdateOutcome Update(const AgentId& id, const motion::MotionState& state, Instant effective_from);
+  motion::BrokenBound ExplainLastBreach() const;
   bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
   bool Remove(const AgentId& id);
   void SetHeardUntil(const OwnerId& owner, Instant until) { agents_.SetHeardUntil(owner, until); }
@@ -50,10 +52,17 @@ class Detector::Implementation {
     Instant stamp() const { return state.stamp; }
   };
 
+  /// The two states of a breach.
+  struct BreachedStates {
+    motion::SpaceTimeBound before;
+    motion::MotionState next;
+    motion::OrientationUse orientation;
+  };
+
   UpdateOutcome Return(const NextState& next);
   UpdateOutcome Jump(const NextState& next);
   UpdateOutcome Keep(const NextState& next, const motion::ContractCheck& check);
-  UpdateOutcome Breach(const NextState& next);
+  UpdateOutcome Breach(const NextState& next, motion::OrientationUse orientation);
   void Renew(AgentIndex agent, const Renewal& renewal);
   void Tighten(AgentIndex agent);
   void Disbelieve(AgentIndex agent, Instant void_from);
@@ -69,6 +78,7 @@ class Detector::Implementation {
   TrackedPairs pairs_;
   Clearances clearances_;
   EarliestSearch earliest_;
+  std::optional<BreachedStates> last_breach_;
 };
 
 }  // namespace collision::detection

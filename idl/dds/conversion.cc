@@ -196,6 +196,11 @@ FIELDS(SimulatorReport,
        VALUE(alive) VALUE(ended) VALUE(descriptions_sequence) VALUE(states_sequence) VALUE(agents)
        VALUE(agents_stated) VALUE(refused) LIST(refusals, wire::kReportRefusalsMax))
 
+FIELDS(AgentBreach,
+       VALUE(simulator_id) VALUE(region) VALUE(slot) MESSAGE(stamp) VALUE(now_ns) VALUE(run)
+       VALUE(incarnation) VALUE(generation) TEXT(field) VALUE(declared) VALUE(seen) VALUE(from_ns)
+       VALUE(at_ns) VALUE(count))
+
 FIELDS(SimulatorStatus,
        VALUE(simulator_id) VALUE(run) TEXT(name) VALUE(alive) VALUE(clock_ns)
        VALUE(granted_until_ns) VALUE(agents) VALUE(states) VALUE(rejected) MESSAGE(clock_offset))
@@ -296,6 +301,8 @@ void FromWire(TopicId topic, const void* wire, v1::Output* output) {
       return Get(wire, output->mutable_service_status());
     case TopicId::kSimulatorReport:
       return Get(wire, output->mutable_simulator_report());
+    case TopicId::kAgentBreach:
+      return Get(wire, output->mutable_agent_breach());
     default:
       throw std::logic_error("not a topic of the service");
   }
@@ -317,6 +324,7 @@ BOTH_WAYS(CollisionEvent)
 BOTH_WAYS(Rejection)
 BOTH_WAYS(ServiceStatus)
 BOTH_WAYS(SimulatorReport)
+BOTH_WAYS(AgentBreach)
 BOTH_WAYS(OperatorCommand)
 
 }  // namespace collision::dds

@@ -36,6 +36,7 @@ COLLISION_CARRIER(CollisionEvent, kContact)  // and kForecast
 COLLISION_CARRIER(Rejection, kRejection)
 COLLISION_CARRIER(ServiceStatus, kServiceStatus)
 COLLISION_CARRIER(SimulatorReport, kSimulatorReport)
+COLLISION_CARRIER(AgentBreach, kAgentBreach)
 COLLISION_CARRIER(OperatorCommand, kOperatorCommand)
 #undef COLLISION_CARRIER
 

@@ -1,7 +1,9 @@
 #include "idl/dds/session.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "idl/dds/conversion.h"
@@ -122,6 +124,11 @@ class DdsSession::Implementation {
     Write(message);
   }
 
+  void WriteBreach(const v1::AgentBreach& message) {
+    breached_[message.simulator_id()].insert(message.slot());
+    Write(message);
+  }
+
   /// Writes and disposes at once, so that the removal has a sequence of its own.
   void RemoveAgent(const v1::AgentRemoval& removal) {
     collision_v1_AgentDescription sample{};
@@ -153,6 +160,14 @@ class DdsSession::Implementation {
     clearance.simulator_id = simulator_id;
     for (clearance.chunk = 0; clearance.chunk <= kChunkMax; ++clearance.chunk) {
       Withdraw(dds::TopicId::kClearance, &clearance);
+    }
+    collision_v1_AgentBreach breach{};
+    breach.simulator_id = simulator_id;
+    const auto slots = breached_.extract(simulator_id);
+    if (slots.empty()) return;
+    for (const std::uint32_t slot : slots.mapped()) {
+      breach.slot = slot;
+      Withdraw(dds::TopicId::kAgentBreach, &breach);
     }
   }
 
@@ -271,6 +286,7 @@ class DdsSession::Implementation {
   const dds_entity_t waitset_;
   dds::Intake intake_;
   std::uint64_t service_id_ = 0;  ///< Of the statuses that were written; 0: none.
+  std::map<std::uint64_t, std::set<std::uint32_t>> breached_;  ///< Slots, by simulator.
   std::uint64_t writes_failed_ = 0;
   std::uint64_t senders_ignored_ = 0;
   std::optional<dds::Waker> waker_;
@@ -297,6 +313,7 @@ void DdsSession::Write(const v1::CollisionEvent& message) {
 void DdsSession::Write(const v1::Rejection& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::ServiceStatus& message) { implementation_->WriteStatus(message); }
 void DdsSession::Write(const v1::SimulatorReport& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::AgentBreach& message) { implementation_->WriteBreach(message); }
 void DdsSession::Write(const v1::OperatorCommand& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::Watch& message) { implementation_->Write(message); }
 

@@ -34,6 +34,8 @@ const std::array<TopicRow, kTopics>& Topics() {
        1, 1, true, kAll},
       {kSimulatorReport, "collision/v1/simulator_report", &collision_v1_SimulatorReport_desc,
        kService, 1, 1, 1, false, kAll},
+      {kAgentBreach, "collision/v1/agent_breach", &collision_v1_AgentBreach_desc, kService, 1, 1, 1,
+       false, kAll},
       {kOperatorCommand, "collision/v1/operator_command", &collision_v1_OperatorCommand_desc,
        kOperators, 1, 1, 1, false, kCommandsAtOnce},
       {kWatch, "collision/v1/watch", &collision_v1_Watch_desc, kWatchers, 1, 1, 1, false, kAll},

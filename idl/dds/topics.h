@@ -24,10 +24,11 @@ enum class TopicId {
   kRejection,
   kServiceStatus,
   kSimulatorReport,
+  kAgentBreach,
   kOperatorCommand,
   kWatch,
 };
-inline constexpr std::size_t kTopics = 15;
+inline constexpr std::size_t kTopics = 16;
 
 enum class Source { kSimulators, kService, kOperators, kWatchers };
 

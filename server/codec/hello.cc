@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "idl/hello_extensions.h"
 #include "idl/identity.h"
 #include "idl/limits.h"
 
@@ -18,6 +19,27 @@ std::string ClockDetail(bool lock_step) {
                      "without lock-step, or the service with clock kind LOCK_STEP";
 }
 
+void Extend(const std::string& key, const std::string& value, v1::ServiceHello* hello) {
+  v1::KeyValue& extension = *hello->add_extensions();
+  extension.set_key(key);
+  extension.set_value(value);
+}
+
+/// All classes, if there is room for them.
+void AddClasses(const v1::Config& config, v1::ServiceHello* hello) {
+  if (config.classes_size() > wire::kHelloExtensionsMax - hello->extensions_size()) return;
+  const v1::ServiceHello without = *hello;
+  for (const v1::AgentClass& one : config.classes()) {
+    std::string met;
+    for (const std::string& name : one.meets()) met += (met.empty() ? "" : " ") + name;
+    if (met.size() > wire::kExtensionValueMax) {
+      *hello = without;
+      return;
+    }
+    Extend(std::string(wire::kClassExtension) + one.name(), met, hello);
+  }
+}
+
 }  // namespace
 
 v1::ServiceHello HelloOf(const v1::Config& config) {
@@ -30,6 +52,8 @@ v1::ServiceHello HelloOf(const v1::Config& config) {
   hello.set_frame(config.frame());
   hello.set_epoch_utc(config.epoch_utc());
   hello.add_regions(hello.region());
+  Extend(std::string(wire::kExcludedExtension), std::to_string(config.excluded_size()), &hello);
+  AddClasses(config, &hello);
   return hello;
 }
 

@@ -18,7 +18,8 @@ AgentRegistry::AgentRegistry(const v1::Config& config, World* world, detection::
       rejections_(*rejections),
       shapes_(*shapes),
       names_(config),
-      undescribed_(ToNanoseconds(config.undescribed_after_s())) {}
+      undescribed_(ToNanoseconds(config.undescribed_after_s())),
+      breaches_(&world_, &detector_) {}
 
 void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& wire,
                              const detection::AgentDeclaration& declaration) {
@@ -118,13 +119,7 @@ void AgentRegistry::Update(Simulator* simulator, std::uint32_t slot, std::uint64
   CountAccepted(simulator);
   simulator->agents().Acknowledge(slot, state.stamp, sequence);
   if (outcome == detection::UpdateOutcome::kBreached) {
-    LogAbout(spdlog::level::warn, "declared bound violated", simulator->name(),
-             fmt::format(
-                 "simulator {} \"{}\" slot {} generation {}: its state at {} ns cannot "
-                 "follow from the one before; detection goes on from the new state. Declare wider "
-                 "bounds, or mark a jump as a discontinuity",
-                 IdText(simulator->id()), simulator->name(), slot, id.generation,
-                 state.stamp.nanoseconds()));
+    breaches_.Add(*simulator, id, ++agent.breaches);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "collision_core/detection/detector.h"
+#include "server/intake/agent_breaches.h"
 #include "server/intake/agent_shapes.h"
 #include "server/intake/overdue_queue.h"
 #include "server/intake/partner_names.h"
@@ -77,6 +78,12 @@ class AgentRegistry {
   /// When ReportUndescribed() may next have something to report.
   std::optional<std::int64_t> NextDue() const { return undescribed_.next_ns(); }
 
+  /// When a count of breaches is due.
+  std::optional<std::int64_t> NextBreachDue() const { return breaches_.NextDue(); }
+
+  /// What agents broke of what they declared.
+  AgentBreaches& breaches() { return breaches_; }
+
   const AgentCounters& counters() const { return counters_; }
 
  private:
@@ -123,6 +130,7 @@ class AgentRegistry {
   std::map<std::uint64_t, std::map<std::uint32_t, Told>> told_;
   PartnerNames names_;
   OverdueQueue<detection::AgentId> undescribed_;
+  AgentBreaches breaches_;
   AgentCounters counters_;
 };
 

@@ -405,7 +405,7 @@ std::optional<std::int64_t> Intake::NextDue() const {
   const std::optional<std::int64_t> wait =
       world_.simulated() ? agent_shapes_.wait().NextDue() : std::nullopt;
   std::optional<std::int64_t> next;
-  for (const auto& due : {state, shape, wait, unproven_.NextDue()}) {
+  for (const auto& due : {state, shape, wait, unproven_.NextDue(), agents_.NextBreachDue()}) {
     if (due) next = next ? std::min(*next, *due) : *due;
   }
   return next;

@@ -94,8 +94,11 @@ class Intake {
   const IntakeCounters& counters() const { return counters_; }
   const AgentCounters& agent_counters() const { return agents_.counters(); }
 
-  /// The monotonic time at which the next missing name, description or shape is overdue; nullopt:
-  /// none is missing.
+  /// The messages about breaches since the last call, without stamps.
+  [[nodiscard]] std::vector<v1::AgentBreach> TakeBreaches() { return agents_.breaches().Take(); }
+
+  /// The monotonic time at which the next missing name, description or shape is overdue, or the
+  /// next count of breaches is due; nullopt: neither.
   std::optional<std::int64_t> NextDue() const;
 
  private:

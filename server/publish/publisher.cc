@@ -213,6 +213,7 @@ void Publisher::PublishEarliest(const detection::EarliestAnswer& answer, const W
 }
 
 void Publisher::PublishRejections(std::vector<v1::Rejection> rejections) {
+  if (!claim_.speaks()) return;
   for (v1::Rejection& rejection : rejections) {
     v1::Output output;
     *output.mutable_rejection() = std::move(rejection);
@@ -226,6 +227,16 @@ void Publisher::PublishReports(std::vector<v1::SimulatorReport> reports) {
     v1::Output output;
     *output.mutable_simulator_report() = std::move(report);
     *output.mutable_simulator_report()->mutable_stamp() = NextStamp();
+    bus_.Publish(output);
+  }
+}
+
+void Publisher::PublishBreaches(std::vector<v1::AgentBreach> breaches) {
+  if (!claim_.speaks()) return;
+  for (v1::AgentBreach& breach : breaches) {
+    v1::Output output;
+    *output.mutable_agent_breach() = std::move(breach);
+    *output.mutable_agent_breach()->mutable_stamp() = NextStamp();
     bus_.Publish(output);
   }
 }

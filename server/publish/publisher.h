@@ -71,7 +71,9 @@ class Publisher {
   /// Publishes the answer if it differs from the last one published, or there are new readers.
   void PublishEarliest(const detection::EarliestAnswer& answer, const World& world);
 
+  /// These two drop everything while this service does not speak: the one in force tells it.
   void PublishRejections(std::vector<v1::Rejection> rejections);
+  void PublishBreaches(std::vector<v1::AgentBreach> breaches);
 
   /// It speaks: publishes who it is, if that has changed. Before anything but its status.
   void PublishHello();

@@ -119,11 +119,9 @@ class Daemon::Implementation {
     if (claim_.works() && world_.EpochIsOver()) EndEpoch("no simulator holds time any more");
     intake_.EndBatch();
     if (claim_.phase() == ClaimPhase::kServing && !journal_.Keep(world_)) return false;
-    if (claim_.speaks()) {
-      PublishAnswers();
-    } else {
-      static_cast<void>(rejections_.Take());
-    }
+    publisher_.PublishRejections(rejections_.Take());
+    publisher_.PublishBreaches(intake_.TakeBreaches());
+    if (claim_.speaks()) PublishAnswers();
     PublishStatus();
     for (const std::uint64_t simulator : world_.TakeForgotten()) bus_.Forget(simulator);
     bus_.Flush();
@@ -349,14 +347,13 @@ class Daemon::Implementation {
     world_.UpdateGrants();
   }
 
-  /// Publishes all but the events, which have left before the grants of the same step.
+  /// Publishes the rest of what a step has found; the events have left before its grants.
   void PublishAnswers() {
     if (publisher_.EarliestIsDue(world_)) {
       publisher_.PublishEarliest(
           advanced_to_ ? detector_.Earliest(kEarliestQueriesMax) : detection::EarliestAnswer(),
           world_);
     }
-    publisher_.PublishRejections(rejections_.Take());
     publisher_.PublishClearances(&world_);
     if (world_.AcknowledgeRevisions()) publisher_.PublishClearances(&world_);
     publisher_.PublishReports(reports_.TakeDue(world_));

@@ -41,8 +41,9 @@ class Agent {
   std::shared_ptr<const void> names = {};   ///< Keeps the numbers of the filter's names.
   /// Hash and margin of the grown shape that it uses (shapes/grown_shapes.h).
   std::optional<std::pair<std::string, double>> grown = {};
-  bool room_refused = false;                         ///< Its owner got REJECTED_TOO_MANY_AGENTS.
-  std::uint64_t description_sequence = 0;            ///< Of the description in force.
+  bool room_refused = false;               ///< Its owner got REJECTED_TOO_MANY_AGENTS.
+  std::uint64_t description_sequence = 0;  ///< Of the description in force.
+  std::uint64_t breaches = 0;              ///< How many of its states broke what was declared.
   std::shared_ptr<const v1::AgentLabel> label = {};  ///< What it is called there; null: nothing.
   /// The declaration before, while states that were written under it may still arrive.
   std::optional<FormerDeclaration> former = {};

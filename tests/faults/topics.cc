@@ -65,6 +65,9 @@ Address AddressOf(const v1::Output& message) {
       return {Topic::kServiceHello, Key(message.service_hello().service_id())};
     case v1::Output::kSimulatorReport:
       return {Topic::kReport, Key(message.simulator_report().simulator_id())};
+    case v1::Output::kAgentBreach:
+      return {Topic::kBreach,
+              Key(message.agent_breach().simulator_id(), message.agent_breach().slot())};
     default:
       return {Topic::kStatus, Key(message.service_status().service_id())};
   }

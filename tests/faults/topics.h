@@ -24,6 +24,7 @@ enum class Topic {
   kRejection,
   kStatus,
   kReport,
+  kBreach,
   kCommand,
   kServiceHello,
   kSimulatorHello,

@@ -142,6 +142,14 @@ void CheckOutput(const v1::Output& output) {
               "more agents with a state than agents");
       dds::ToWire(output.simulator_report());
       break;
+    case v1::Output::kAgentBreach:
+      Require(output.agent_breach().count() >= 1, "a breach that was not counted");
+      Require(output.agent_breach().seen() >= output.agent_breach().declared(),
+              "seen is what was allowed: ", Shown{output.agent_breach()});
+      Require(output.agent_breach().from_ns() <= output.agent_breach().at_ns(),
+              "a breach backward in time: ", Shown{output.agent_breach()});
+      dds::ToWire(output.agent_breach());
+      break;
     case v1::Output::kServiceStatus:
       dds::ToWire(output.service_status());
       break;

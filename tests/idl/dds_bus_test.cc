@@ -196,6 +196,12 @@ TEST(DdsBus, WhatIsForgottenIsNotToldToALateReader) {
       clearance.mutable_clearance()->set_chunk(chunk);
       bus.Publish(clearance);
     }
+    for (const std::uint32_t slot : {0u, 70'000u}) {
+      v1::Output breach;
+      breach.mutable_agent_breach()->set_simulator_id(simulator);
+      breach.mutable_agent_breach()->set_slot(slot);
+      bus.Publish(breach);
+    }
   };
   const std::uint64_t gone = 1, there = 2;
   publish(gone);
@@ -206,7 +212,8 @@ TEST(DdsBus, WhatIsForgottenIsNotToldToALateReader) {
   const auto told = [](const std::vector<v1::Output>& outputs, std::uint64_t simulator) {
     return std::count_if(outputs.begin(), outputs.end(), [&](const v1::Output& output) {
       return output.simulator_report().simulator_id() == simulator ||
-             output.clearance().simulator_id() == simulator;
+             output.clearance().simulator_id() == simulator ||
+             output.agent_breach().simulator_id() == simulator;
     });
   };
   std::vector<v1::Output> heard;
@@ -214,7 +221,7 @@ TEST(DdsBus, WhatIsForgottenIsNotToldToALateReader) {
   do {
     DdsSession late(MonitorOptions(false));
     heard.clear();
-    ASSERT_TRUE(ReceiveUntil(late, &heard, [&] { return told(heard, there) == 3; }));
+    ASSERT_TRUE(ReceiveUntil(late, &heard, [&] { return told(heard, there) == 5; }));
   } while (told(heard, gone) > 0 && std::chrono::steady_clock::now() < end);
   EXPECT_EQ(told(heard, gone), 0);
 }

@@ -31,6 +31,7 @@ TEST(Limits, LengthsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("ServiceStatus", "world"), wire::kNameMax);
   EXPECT_EQ(BoundOf("SimulatorReport", "name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("Rejection", "field"), wire::kRefusedFieldMax);
+  EXPECT_EQ(BoundOf("AgentBreach", "field"), wire::kBreachFieldMax);
   EXPECT_EQ(BoundOf("StandingRefusal", "field"), wire::kRefusedFieldMax);
   EXPECT_EQ(BoundOf("StandingRefusal", "detail"), wire::kRefusalDetailMax);
   EXPECT_EQ(BoundOf("Rejection", "detail"), wire::kRefusalDetailMax);

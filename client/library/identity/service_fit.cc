@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "client/library/identity/library_version.h"
 #include "idl/limits.h"
 
 namespace collision::client {
@@ -20,6 +21,7 @@ v1::SimulatorHello HelloOf(const OwnFacts& own, std::uint64_t simulator_id,
   hello.set_clock_kind(own.lock_step ? v1::CLOCK_LOCK_STEP : v1::CLOCK_REAL_TIME);
   hello.set_simulator_name(own.simulator);
   hello.set_frame(own.frame);
+  hello.set_version(LibraryVersion());
   return hello;
 }
 

@@ -277,6 +277,16 @@ Rejection FromMessage(const v1::StandingRefusal& refusal, const v1::SimulatorRep
   return rejection;
 }
 
+Breach FromMessage(const v1::AgentBreach& message) {
+  return {{message.simulator_id(), message.run(), message.slot(), message.generation()},
+          message.field(),
+          message.declared(),
+          message.seen(),
+          message.from_ns(),
+          message.at_ns(),
+          message.count()};
+}
+
 EarliestIntersection FromMessage(const v1::EarliestIntersection& message) {
   return {message.now_ns(), message.found(), message.earliest_ns(), FromMessage(message.lower()),
           FromMessage(message.higher())};

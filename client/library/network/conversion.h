@@ -21,6 +21,7 @@ Event FromMessage(const v1::CollisionEvent& event);
 Clearance FromMessage(const v1::AgentClearance& clearance);
 Rejection FromMessage(const v1::Rejection& rejection);
 Rejection FromMessage(const v1::StandingRefusal& refusal, const v1::SimulatorReport& report);
+Breach FromMessage(const v1::AgentBreach& breach);
 EarliestIntersection FromMessage(const v1::EarliestIntersection& earliest);
 ServiceStatus FromMessage(const v1::ServiceStatus& status);
 

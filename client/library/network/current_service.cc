@@ -50,6 +50,8 @@ const v1::ServiceStamp& StampOf(const v1::Output& output) {
       return output.rejection().stamp();
     case v1::Output::kSimulatorReport:
       return output.simulator_report().stamp();
+    case v1::Output::kAgentBreach:
+      return output.agent_breach().stamp();
     default:
       return output.service_status().stamp();
   }
@@ -72,6 +74,10 @@ OtherServices::Instance OtherServices::InstanceOf(const v1::Output& output) {
       return {
           kind,
           {output.simulator_report().simulator_id(), in(output.simulator_report().region(), 0)}};
+    case v1::Output::kAgentBreach:
+      return {kind,
+              {output.agent_breach().simulator_id(),
+               in(output.agent_breach().region(), output.agent_breach().slot())}};
     default:
       return {kind, {0, 0}};
   }

@@ -105,6 +105,9 @@ void MessageMonitor::HandOn(const v1::Output& output) {
     case v1::Output::kRejection:
       if (Accept(output.rejection().stamp())) Call(callbacks_.rejection, output.rejection());
       return;
+    case v1::Output::kAgentBreach:
+      if (!Accept(output.agent_breach().stamp())) return;
+      return Call(callbacks_.breach, output.agent_breach());
     case v1::Output::kServiceStatus:
       if (output.service_status().phase() == v1::PHASE_CLAIMING) return;
       if (output.service_status().phase() == v1::PHASE_STANDBY) {

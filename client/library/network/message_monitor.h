@@ -40,6 +40,7 @@ class MessageMonitor {
     std::function<void(const v1::Clearance&)> clearance = {};
     std::function<void(const v1::Rejection&)> rejection = {};
     std::function<void(const v1::SimulatorReport&)> report = {};
+    std::function<void(const v1::AgentBreach&)> breach = {};
   };
 
   /// Throws std::runtime_error if an option is out of range or DDS is not available.

@@ -21,6 +21,7 @@ MessageMonitor::Callbacks Converting(const Monitor::Callbacks& plain) {
   Convert(plain.earliest, &callbacks.earliest);
   Convert(plain.status, &callbacks.status);
   Convert(plain.rejection, &callbacks.rejection);
+  Convert(plain.breach, &callbacks.breach);
   Convert(plain.description, &callbacks.description);
   Convert(plain.clock, &callbacks.clock);
   if (plain.clearance) {

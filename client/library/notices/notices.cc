@@ -178,22 +178,22 @@ void Notices::Refuse(const Rejection& rejection, const std::string& agent) {
            rejection.field + ": " + rejection.detail + " (" + rejection.reason + "; told once)");
 }
 
-void Notices::Breach(const std::string& agent, std::int64_t since_ns) {
-  if (breaches_.size() == kBreachesToldMax || !breaches_.insert(agent).second) return;
+void Notices::Breach(const client::Breach& breach, const std::string& agent) {
+  if (breaches_.size() == kBreachesToldMax) return;
+  if (!breaches_.emplace(agent, breach.field).second) return;
+  const auto name = [&agent](const AgentId&) { return agent; };
+  Tell(NoticeKind::kBreach, BreachText(breach, name, 0) + "; see client/BOUNDS.md");
+}
+
+void Notices::SkewedClock(std::int64_t since_ns) {
+  if (std::exchange(skew_told_, true)) return;
   const std::string since = since_ns == std::numeric_limits<std::int64_t>::min()
                                 ? ""
                                 : ", from " + InstantText(since_ns, 0, 3) + " on";
-  if (agent.empty()) {
-    Tell(NoticeKind::kBreach,
-         "the service finds this simulator's clock off by more than its clock.skew_max_s: promises "
-         "about its agents are void" +
-             since);
-    return;
-  }
-  Tell(NoticeKind::kBreach, "agent " + Quoted(agent) +
-                                " has moved otherwise than its description allows (acceleration, "
-                                "speed, errors, time step): promises about it are void" +
-                                since);
+  Tell(NoticeKind::kBreach,
+       "the service finds this simulator's clock off by more than its clock.skew_max_s: promises "
+       "about its agents are void" +
+           since);
 }
 
 std::optional<Notice> Notices::Take() {

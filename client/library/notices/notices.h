@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/api/notice.h"
@@ -20,7 +21,7 @@ namespace collision::client {
 inline constexpr std::chrono::seconds kNoticeAfter(3);
 inline constexpr std::chrono::seconds kNoticeAgain(60);
 
-/// Reasons of refusals, and agents in breach, that are told; further ones are not.
+/// Reasons of refusals, and bounds of agents in breach, that are told; further ones are not.
 inline constexpr std::size_t kRefusalsToldMax = 64;
 inline constexpr std::size_t kBreachesToldMax = 64;
 
@@ -69,9 +70,11 @@ class Notices {
   /// `agent`: the name of the agent that it is about; empty: of none.
   void Refuse(const Rejection& rejection, const std::string& agent);
 
-  /// The service says that this agent broke what it declared, or that the simulator's clock did
-  /// (`agent` empty).
-  void Breach(const std::string& agent, std::int64_t since_ns);
+  /// The service says that this agent broke what it declared: told once of each agent and field.
+  void Breach(const client::Breach& breach, const std::string& agent);
+
+  /// The service says that the simulator's clock is off: told once.
+  void SkewedClock(std::int64_t since_ns);
 
   /// The next notice that was not told yet; nullopt: none.
   std::optional<Notice> Take();
@@ -99,7 +102,9 @@ class Notices {
   const Facts facts_;
   Lasting no_service_, wrong_clock_, waiting_, name_taken_, ended_;
   std::optional<std::int64_t> granted_ns_;  ///< When the wait began.
-  std::set<std::string> refusals_, breaches_;
+  std::set<std::string> refusals_;
+  std::set<std::pair<std::string, std::string>> breaches_;  ///< Agents, and the fields they broke.
+  bool skew_told_ = false;
   std::deque<Notice> notices_;
 };
 

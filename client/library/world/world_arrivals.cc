@@ -104,6 +104,11 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
         Handle(output.simulator_report(), now);
       }
       break;
+    case v1::Output::kAgentBreach:
+      if (Accept(output.agent_breach().stamp(), output.agent_breach().now_ns(), now)) {
+        Handle(output.agent_breach());
+      }
+      break;
     case v1::Output::kServiceStatus: {
       const v1::ServiceStatus& status = output.service_status();
       if (status.phase() != v1::PHASE_SERVING) break;
@@ -179,7 +184,7 @@ void World::Implementation::Handle(const v1::Clearance& told) {
   for (const v1::AgentClearance& agent : clearance.agents()) {
     if (!agents_.SetClearance(agent, clearance.now_ns())) continue;
     const AgentId id{simulator_id_, run_, agent.slot(), agent.generation()};
-    NoteBreach(agent);
+    NoteSkew(agent);
     if (on_lowered_ || on_void_) lowered_.emplace_back(id, this->clearance(id));
   }
 }
@@ -332,15 +337,18 @@ void World::Implementation::Note(const Rejection& rejection) {
   notices_.Refuse(rejection, is_of_agent ? agents_.NameIn(rejection.slot) : "");
 }
 
-/// Others hear of a breach, too: what counts is whose it was.
-void World::Implementation::NoteBreach(const v1::AgentClearance& clearance) {
-  if (!IsOwn(clearance.cause_agent())) return;
-  if (clearance.cause() == v1::CAUSE_BREACH) {
-    const std::string agent = agents_.NameIn(clearance.cause_agent().slot());
-    if (!agent.empty()) notices_.Breach(agent, clearance.void_from_ns());
-  } else if (clearance.cause() == v1::CAUSE_SKEW) {
-    notices_.Breach("", clearance.void_from_ns());
+/// Others hear of it, too: what counts is whose clock it is.
+void World::Implementation::NoteSkew(const v1::AgentClearance& clearance) {
+  if (clearance.cause() == v1::CAUSE_SKEW && IsOwn(clearance.cause_agent())) {
+    notices_.SkewedClock(clearance.void_from_ns());
   }
+}
+
+void World::Implementation::Handle(const v1::AgentBreach& breach) {
+  if (breach.simulator_id() != simulator_id_ || breach.run() != run_) return;
+  if (!IsForThis(breach.incarnation())) return;
+  const std::string agent = agents_.NameIn(breach.slot());
+  if (!agent.empty()) notices_.Breach(FromMessage(breach), agent);
 }
 
 template <typename Callback, typename... Values>

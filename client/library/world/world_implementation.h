@@ -155,6 +155,7 @@ class World::Implementation {
   void Handle(const v1::Clearance& clearance);
   void Handle(const v1::CollisionEvent& event);
   void Handle(const v1::SimulatorReport& report, Arrival::Time now);
+  void Handle(const v1::AgentBreach& breach);
   bool IsOwn(const v1::AgentId& id) const;
   /// Not for another program of this name.
   bool IsForThis(std::uint32_t incarnation) const;
@@ -172,7 +173,7 @@ class World::Implementation {
   /// Tells the user what stands in the way.
   void TellNotices();
   void Note(const Rejection& rejection);
-  void NoteBreach(const v1::AgentClearance& clearance);
+  void NoteSkew(const v1::AgentClearance& clearance);
 
   /// Runs the callbacks for what has been received, or for that and the forecasts that are held.
   void Deliver();

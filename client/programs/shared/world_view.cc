@@ -43,8 +43,8 @@ bool IsHeld(const AgentView& agent) {
 MessageMonitor::Callbacks WorldView::Callbacks() {
   MessageMonitor::Callbacks callbacks;
   callbacks.hello = [this](const v1::ServiceHello& hello) {
-    if (skews_.size() >= kHellosMax) skews_.clear();
-    skews_[hello.service_id()] = hello.skew_max_ns();
+    if (hellos_.size() >= kHellosMax) hellos_.clear();
+    hellos_[hello.service_id()] = hello;
   };
   callbacks.status = [this](const v1::ServiceStatus& status) {
     status_ = status;
@@ -61,6 +61,7 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
     standbys_[status.service_id()] = {status, now};
   };
   callbacks.report = [this](const v1::SimulatorReport& report) { Handle(report); };
+  callbacks.breach = [this](const v1::AgentBreach& breach) { Handle(breach); };
   callbacks.earliest = [this](const v1::EarliestIntersection& earliest) { earliest_ = earliest; };
   callbacks.event = [this](const v1::CollisionEvent& event) {
     KeepLabel(event.lower(), event.lower_label());
@@ -83,8 +84,18 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
 
 std::int64_t WorldView::skew_max_ns() const {
   if (!status_) return 0;
-  const auto found = skews_.find(status_->service_id());
-  return found == skews_.end() ? 0 : found->second;
+  const auto found = hellos_.find(status_->service_id());
+  return found == hellos_.end() ? 0 : found->second.skew_max_ns();
+}
+
+std::optional<std::string> WorldView::HelloExtension(const std::string& key) const {
+  if (!status_) return std::nullopt;
+  const auto found = hellos_.find(status_->service_id());
+  if (found == hellos_.end()) return std::nullopt;
+  for (const v1::KeyValue& extension : found->second.extensions()) {
+    if (extension.key() == key) return extension.value();
+  }
+  return std::nullopt;
 }
 
 std::vector<v1::ServiceStatus> WorldView::Standbys() const {
@@ -147,6 +158,11 @@ AgentView WorldView::Described(const Key& key, const v1::AgentDescription& descr
   };
   take(states_, &agent.state);
   take(clearances_, &agent.clearance);
+  const auto breach = breaches_.find(key);
+  if (breach != breaches_.end() && breach->second.run() == description.run() &&
+      breach->second.generation() == description.generation()) {
+    agent.breach = breach->second;
+  }
   agent.presence = PresenceOf(description);
   return agent;
 }
@@ -218,7 +234,8 @@ AgentView WorldView::HeldOnly(std::uint64_t simulator, std::uint32_t run,
   AgentView agent{.presence = SilentPresence(SimulatorName(simulator)),
                   .description = {},
                   .state = {},
-                  .clearance = clearance};
+                  .clearance = clearance,
+                  .breach = {}};
   agent.description.set_simulator_id(simulator);
   agent.description.set_simulator_name(SimulatorName(simulator));
   agent.description.set_run(run);
@@ -309,6 +326,11 @@ void WorldView::Handle(const v1::SimulatorReport& report) {
   }
 }
 
+void WorldView::Handle(const v1::AgentBreach& breach) {
+  const Key key{breach.simulator_id(), breach.slot()};
+  if (breaches_.size() < kBreachesMax || breaches_.contains(key)) breaches_[key] = breach;
+}
+
 void WorldView::Handle(const v1::AgentDescription& description) {
   KeepSimulatorName(description.simulator_id(), description.simulator_name());
   names_.try_emplace(
@@ -339,7 +361,9 @@ void WorldView::ForgetFormerRuns(std::uint64_t simulator, std::uint32_t run) {
 void WorldView::Handle(const v1::AgentRemoval& removal) {
   const auto agent = descriptions_.find({removal.simulator_id(), removal.slot()});
   if (agent == descriptions_.end()) return;
-  if (agent->second.incarnation() == removal.incarnation()) descriptions_.erase(agent);
+  if (agent->second.incarnation() != removal.incarnation()) return;
+  breaches_.erase(agent->first);
+  descriptions_.erase(agent);
 }
 
 void WorldView::Handle(const v1::ShapePart& part) {

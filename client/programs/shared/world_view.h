@@ -38,6 +38,7 @@ struct AgentView {
   v1::AgentDescription description;
   std::optional<v1::AgentState> state;
   std::optional<v1::AgentClearance> clearance;
+  std::optional<v1::AgentBreach> breach;  ///< The newest; nullopt: none was told.
 };
 
 /// Whether the service holds it, so that it counts for others.
@@ -68,8 +69,9 @@ class WorldView {
 
   /// The longest period of a status, and a little.
   static constexpr std::chrono::seconds kStandbySilence{11};
-  static constexpr std::size_t kHellosMax = 64;    ///< Beyond it all former ones are dropped.
-  static constexpr std::size_t kStandbysMax = 16;  ///< Beyond it no further one is kept.
+  static constexpr std::size_t kHellosMax = 64;       ///< Beyond it all former ones are dropped.
+  static constexpr std::size_t kBreachesMax = 65536;  ///< Beyond it no further agent's is kept.
+  static constexpr std::size_t kStandbysMax = 16;     ///< Beyond it no further one is kept.
 
   WorldView() = default;
   WorldView(const WorldView&) = delete;
@@ -83,6 +85,9 @@ class WorldView {
   /// κ, the bound on the offset of any clock, as the hello of the service in force says [ns]; 0 if
   /// that has not come.
   std::int64_t skew_max_ns() const;
+
+  /// The extension of the hello of the service in force; nullopt: it has none of this key.
+  std::optional<std::string> HelloExtension(const std::string& key) const;
 
   /// The newest status of each service that stands by and was heard within kStandbySilence.
   std::vector<v1::ServiceStatus> Standbys() const;
@@ -132,6 +137,7 @@ class WorldView {
   using Key = std::pair<std::uint64_t, std::uint32_t>;  ///< Simulator, slot.
 
   void Handle(const v1::SimulatorReport& report);
+  void Handle(const v1::AgentBreach& breach);
   void Handle(const v1::AgentDescription& description);
   void Handle(const v1::AgentRemoval& removal);
   void Handle(const v1::ShapePart& part);
@@ -154,7 +160,7 @@ class WorldView {
   };
 
   std::optional<v1::ServiceStatus> status_;
-  std::map<std::uint64_t, std::int64_t> skews_;           ///< skew_max_ns of the hello, by service.
+  std::map<std::uint64_t, v1::ServiceHello> hellos_;      ///< By service.
   std::map<std::uint64_t, Standby> standbys_;             ///< By service.
   std::map<std::uint64_t, v1::SimulatorReport> refused_;  ///< By simulator.
   std::optional<v1::EarliestIntersection> earliest_;
@@ -164,6 +170,7 @@ class WorldView {
   std::map<std::uint64_t, std::string> simulator_names_;  ///< Likewise, by id.
   std::map<Key, std::pair<std::uint32_t, v1::AgentState>> states_;          ///< With their run.
   std::map<Key, std::pair<std::uint32_t, v1::AgentClearance>> clearances_;  ///< With their run.
+  std::map<Key, v1::AgentBreach> breaches_;                            ///< The newest of each slot.
   std::map<Key, v1::ServiceStamp> clearance_stamps_;                   ///< By simulator and chunk.
   std::map<std::pair<std::uint64_t, std::string>, ShapeView> shapes_;  ///< By simulator and hash.
   std::vector<v1::CollisionEvent> events_;

@@ -3,6 +3,7 @@
 // Method: few agents on lines, whose meetings are exact; states every 1/16 s, one clock.
 #include <gtest/gtest.h>
 
+#include "collision_core/base/check.h"
 #include "tests/collision_core/detection/line.h"
 
 namespace collision::detection {
@@ -53,6 +54,26 @@ TEST(Detector, StatesThatNoMotionJoinsAreABreach) {
   EXPECT_EQ(own->cause_agent, Id(1));
   EXPECT_EQ(own->void_from, At(1));
   EXPECT_EQ(line.detector.counters().breaches, 1u);
+}
+
+// At rest at both ends, 990 m apart: half the way speeding up, half slowing down, 4 · 990 m / s².
+TEST(Detector, ABreachIsExplainedByTheBoundThatWasInForce) {
+  Line line;
+  line.detector.Admit(Id(1), {.limits = {1, 2}}, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+  EXPECT_THROW(line.detector.ExplainLastBreach(), CheckFailure);
+  line.Step();
+  EXPECT_EQ(line.detector.Update(Id(1), State(2, {990, 0, 0}, {0, 0, 0}), At(2)),
+            UpdateOutcome::kBreached);
+  line.detector.Redeclare(Id(1), {.limits = {1, 1e4}}, At(2));
+  EXPECT_EQ(line.detector.Update(Id(1), State(3, {990, 0, 0}, {0, 0, 0}), At(3)),
+            UpdateOutcome::kKept);
+  const motion::BrokenBound broken = line.detector.ExplainLastBreach();
+  EXPECT_EQ(broken.bound, motion::DeclaredBound::kAccelerationMax);
+  EXPECT_EQ(broken.declared, 2);
+  EXPECT_LE(broken.seen, 990);
+  EXPECT_GE(broken.seen, 988);
+  EXPECT_EQ(broken.from, At(0));
+  EXPECT_EQ(broken.at, At(2));
 }
 
 // An agent admitted in the same step lowers the same clearance, but voids nothing.

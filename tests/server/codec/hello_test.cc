@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <map>
+#include <string>
 
 #include "idl/identity.h"
 #include "idl/limits.h"
@@ -43,6 +45,36 @@ TEST(Hello, SaysWhatTheConfigurationStates) {
   EXPECT_EQ(hello.epoch_utc(), "2026-01-01T00:00:00Z");
   ASSERT_EQ(hello.regions_size(), 1);
   EXPECT_EQ(hello.regions(0), hello.region());
+}
+
+TEST(Hello, TellsWhichClassesMeetIfThereIsRoom) {
+  v1::Config config;
+  const auto add = [&config](const std::string& name) {
+    v1::AgentClass* one = config.add_classes();
+    one->set_name(name);
+    return one;
+  };
+  v1::AgentClass* robot = add("robot");
+  robot->add_meets("person");
+  robot->add_meets("robot");
+  add("person");
+  config.add_excluded();
+  const auto told = [&config] {
+    std::map<std::string, std::string> extensions;
+    for (const v1::KeyValue& one : HelloOf(config).extensions()) {
+      extensions[one.key()] = one.value();
+    }
+    return extensions;
+  };
+  EXPECT_EQ(told(), (std::map<std::string, std::string>{
+                        {"excluded", "1"}, {"class.robot", "person robot"}, {"class.person", ""}}));
+  for (int i = 2; i < wire::kHelloExtensionsMax - 1; ++i) add("class-" + std::to_string(i));
+  EXPECT_EQ(told().size(), static_cast<std::size_t>(wire::kHelloExtensionsMax));
+  for (int i = 0; i < 30; ++i) robot->add_meets("class-" + std::to_string(i % 9 + 2));
+  EXPECT_EQ(told().size(), 1u) << "a list is too long";
+  robot->clear_meets();
+  add("one-more");
+  EXPECT_EQ(told().size(), 1u) << "too many classes";
 }
 
 TEST(Hello, WhatDoesNotFitIsRefusedByField) {

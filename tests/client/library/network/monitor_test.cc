@@ -61,6 +61,30 @@ TEST_F(MonitorTest, AnEventArrivesWithAllItsFields) {
   EXPECT_EQ(events[0].proximity->separation_upper_m, -1);
 }
 
+TEST_F(MonitorTest, ABreachArrivesWithAllItsFields) {
+  auto* message = next_.outputs.emplace_back().mutable_agent_breach();
+  message->set_simulator_id(5);
+  message->set_run(7);
+  message->set_slot(1);
+  message->set_generation(3);
+  message->set_field("speed_max_m_s");
+  message->set_declared(2);
+  message->set_seen(2.5);
+  message->set_from_ns(10);
+  message->set_at_ns(20);
+  message->set_count(4);
+  std::vector<Breach> breaches;
+  EXPECT_EQ(Poll({.breach = [&](const Breach& breach) { breaches.push_back(breach); }}), 1u);
+  ASSERT_EQ(breaches.size(), 1u);
+  EXPECT_EQ(breaches[0].agent, IdOf(1));
+  EXPECT_EQ(breaches[0].field, "speed_max_m_s");
+  EXPECT_EQ(breaches[0].declared, 2);
+  EXPECT_EQ(breaches[0].seen, 2.5);
+  EXPECT_EQ(breaches[0].from_ns, 10);
+  EXPECT_EQ(breaches[0].at_ns, 20);
+  EXPECT_EQ(breaches[0].count, 4u);
+}
+
 TEST(Conversion, WhatAnEventDoesNotTellIsAbsent) {
   const Event event = FromMessage(v1::CollisionEvent());
   EXPECT_FALSE(event.proximity || event.expected || event.closest);

@@ -154,14 +154,33 @@ TEST_F(NoticesTest, EachReasonAndFieldOfARefusalIsToldOnceUpToALimit) {
   EXPECT_EQ(TakeAll().size(), kRefusalsToldMax - 1);
 }
 
-TEST_F(NoticesTest, ABreachIsToldOnceForEachAgent) {
-  notices_.Breach("ball", 1'500'000'000);
-  notices_.Breach("ball", 1'600'000'000);
-  notices_.Breach("", 0);
-  const auto told = TakeAll();
-  ASSERT_EQ(told.size(), 2u);
-  EXPECT_TRUE(Has(told[0].text, "agent \"ball\"") && Has(told[0].text, "1.500 s")) << told[0].text;
-  EXPECT_TRUE(Has(told[1].text, "clock")) << told[1].text;
+TEST_F(NoticesTest, ABreachIsToldOnceForEachAgentAndBound) {
+  Breach breach{.agent = {},
+                .field = "speed_max_m_s",
+                .declared = 2,
+                .seen = 3,
+                .from_ns = 1'500'000'000,
+                .at_ns = 1'600'000'000,
+                .count = 1};
+  notices_.Breach(breach, "ball");
+  breach.count = 2;
+  notices_.Breach(breach, "ball");
+  breach.field = "acceleration_max_m_s2";
+  notices_.Breach(breach, "ball");
+  notices_.SkewedClock(0);
+  notices_.SkewedClock(1);
+  auto told = TakeAll();
+  ASSERT_EQ(told.size(), 3u);
+  EXPECT_TRUE(Has(told[0].text,
+                  "ball broke speed_max_m_s: declared 2, at least 3 seen between "
+                  "1.500 s and 1.600 s (once)"))
+      << told[0].text;
+  EXPECT_TRUE(Has(told[1].text, "ball broke acceleration_max_m_s2")) << told[1].text;
+  EXPECT_TRUE(Has(told[2].text, "clock")) << told[2].text;
+  for (std::size_t i = 0; i < 2 * kBreachesToldMax; ++i) {
+    notices_.Breach(breach, "ball " + std::to_string(i));
+  }
+  EXPECT_EQ(TakeAll().size(), kBreachesToldMax - 2);
 }
 
 class WorldNoticesTest : public testing::Test {
@@ -266,21 +285,23 @@ TEST_F(WorldNoticesTest, ARefusalAndABreachNameTheAgent) {
   rejection->set_topic(v1::TOPIC_AGENT_STATES);
   rejection->set_reason(v1::REJECTED_FUTURE_STAMP);
   rejection->set_field("stamp_ns");
-  v1::Clearance* clearance = network_->arriving.emplace_back().mutable_clearance();
-  clearance->mutable_stamp()->set_service_id(1);
-  clearance->mutable_stamp()->set_term(1);
-  clearance->set_simulator_id(SimulatorId(kSimulator));
-  clearance->set_run(kRun);
-  v1::AgentClearance* agent = clearance->add_agents();
-  agent->set_generation(1);
-  agent->set_cause(v1::CAUSE_BREACH);
-  agent->set_lowerings(1);
-  agent->mutable_cause_agent()->set_simulator_id(SimulatorId(kSimulator));
-  agent->mutable_cause_agent()->set_run(kRun);
+  const auto breach = [&](std::uint64_t simulator, std::uint32_t run) {
+    v1::AgentBreach* message = network_->arriving.emplace_back().mutable_agent_breach();
+    message->mutable_stamp()->set_service_id(1);
+    message->mutable_stamp()->set_term(1);
+    message->set_simulator_id(simulator);
+    message->set_run(run);
+    message->set_generation(1);
+    message->set_field("speed_max_m_s");
+    message->set_count(1);
+  };
+  breach(SimulatorId(kSimulator), kRun - 1);
+  breach(SimulatorId("another"), kRun);
+  breach(SimulatorId(kSimulator), kRun);
   world_.Poll();
   ASSERT_EQ(told_.size(), 2u);
   EXPECT_TRUE(told_[0].kind == NoticeKind::kRefused && Has(told_[0].text, "\"ball\""));
-  EXPECT_TRUE(told_[1].kind == NoticeKind::kBreach && Has(told_[1].text, "\"ball\""));
+  EXPECT_TRUE(told_[1].kind == NoticeKind::kBreach && Has(told_[1].text, "ball broke speed"));
 }
 
 }  // namespace

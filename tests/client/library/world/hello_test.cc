@@ -2,6 +2,7 @@
 // Method: a network under the test's control.
 #include <gtest/gtest.h>
 
+#include "client/library/identity/library_version.h"
 #include "idl/limits.h"
 #include "tests/client/fake_transport.h"
 
@@ -17,6 +18,8 @@ TEST(WorldHello, AServiceThatDoesNotFitIsRefusedInOneSentence) {
   EXPECT_EQ(network->hello.wire_revision(), wire::kWireRevision);
   EXPECT_EQ(network->hello.clock_kind(), v1::CLOCK_LOCK_STEP);
   EXPECT_EQ(network->hello.frame(), "ENU 1");
+  EXPECT_EQ(network->hello.version(), LibraryVersion());
+  EXPECT_FALSE(network->hello.version().empty());
   network->Grant(10);
   v1::ServiceHello* hello = network->arriving.emplace_back().mutable_service_hello();
   hello->set_service_id(1);

@@ -68,6 +68,22 @@ class CollisionctlTest : public testing::Test {
     agent->set_clear_until_ns(kNever);
   }
 
+  /// Of the first agent in the slot.
+  v1::AgentBreach* Break(std::uint32_t run, std::uint32_t slot) {
+    v1::AgentBreach* breach = next_.outputs.emplace_back().mutable_agent_breach();
+    breach->set_simulator_id(5);
+    breach->set_run(run);
+    breach->set_slot(slot);
+    breach->set_generation(1);
+    breach->set_field("acceleration_max_m_s2");
+    breach->set_declared(2);
+    breach->set_seen(3.5);
+    breach->set_from_ns(1'200'000'000);
+    breach->set_at_ns(1'300'000'000);
+    breach->set_count(4);
+    return breach;
+  }
+
   Arrivals next_;
   WorldView view_;
   MessageMonitor monitor_{std::make_unique<FakeReceiver>(&next_), view_.Callbacks()};

@@ -24,6 +24,39 @@ TEST_F(CollisionctlTest, AgentsPageIsTheSameInAnyOrderOfArrival) {
             "sim:0.1  ball  ball   0.5         7.9       2.000 s   1.500 0.000 0.000  never\n");
 }
 
+TEST_F(CollisionctlTest, AgentsPageTellsWhatAgentsBroke) {
+  Describe("ball", 7, 0);
+  Describe("honest", 7, 1);
+  Break(7, 0);
+  Break(6, 1);  // of a former run
+  Poll(4);
+  const std::string broke =
+      "ball (sim) broke acceleration_max_m_s2: declared 2, at least 3.5 seen "
+      "between 1.200 s and 1.300 s (4 times)\n";
+  const std::string page = AgentsPage(view_);
+  ASSERT_GT(page.size(), broke.size());
+  EXPECT_EQ(page.substr(page.size() - broke.size()), broke);
+  EXPECT_EQ(page.find("honest (sim) broke"), std::string::npos);
+  EXPECT_NE(AgentsJson(view_).find("\"breach\":{\"count\":4,\"field\":\"acceleration_max_m_s2\","
+                                   "\"declared\":2,\"seen\":3.5,\"from_ns\":\"1200000000\""),
+            std::string::npos)
+      << AgentsJson(view_);
+  EXPECT_NE(AgentsJson(view_).find("\"breach\":null"), std::string::npos);
+  v1::AgentRemoval* removal = next_.inputs.emplace_back().mutable_agent_removal();
+  removal->set_simulator_id(5);
+  Poll(1);
+  EXPECT_EQ(AgentsPage(view_).find("broke"), std::string::npos);
+}
+
+TEST_F(CollisionctlTest, AgentsPageListsOnlySoManyBreaches) {
+  for (std::uint32_t slot = 0; slot < 25; ++slot) {
+    Describe("ball", 7, slot);
+    Break(7, slot);
+  }
+  Poll(50);
+  EXPECT_NE(AgentsPage(view_).find("(4 times)\nand 5 more\n"), std::string::npos);
+}
+
 TEST_F(CollisionctlTest, ShapesPageShowsTheArrivedPartsOfEach) {
   const std::string hash = "\x01\xab\xcd\xef" + std::string(28, '\7');
   for (const std::uint32_t slot : {0, 1}) Describe("ship", 7, slot)->set_shape_hash(hash);

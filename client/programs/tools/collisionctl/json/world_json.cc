@@ -100,6 +100,18 @@ std::string ClearanceJson(const v1::AgentClearance& clearance, const WorldView& 
       .Json();
 }
 
+/// A value that no number explains is null.
+std::string BreachJson(const v1::AgentBreach& breach) {
+  return JsonObject()
+      .Count("count", breach.count())
+      .Text("field", breach.field())
+      .Number("declared", breach.declared())
+      .Number("seen", breach.seen())
+      .Instant("from", breach.from_ns())
+      .Instant("at", breach.at_ns())
+      .Json();
+}
+
 }  // namespace
 
 std::string AgentJson(const AgentView& agent, const WorldView& view) {
@@ -115,6 +127,7 @@ std::string AgentJson(const AgentView& agent, const WorldView& view) {
       .Add("declaration", is_described ? DeclarationJson(description) : "null")
       .Add("state", agent.state ? StateJson(*agent.state) : "null")
       .Add("clearance", agent.clearance ? ClearanceJson(*agent.clearance, view) : "null")
+      .Add("breach", agent.breach ? BreachJson(*agent.breach) : "null")
       .Json();
 }
 

@@ -69,6 +69,20 @@ std::vector<std::string> AgentRow(const AgentView& agent) {
   return row;
 }
 
+/// A line for each agent that broke what it declared.
+std::string BreachLines(const std::vector<AgentView>& agents, const WorldView& view) {
+  constexpr std::size_t kLinesMax = 20;
+  std::string lines;
+  std::size_t broken = 0;
+  for (const AgentView& agent : agents) {
+    if (!agent.breach || ++broken > kLinesMax) continue;
+    const auto name = [&view](const AgentId& id) { return view.FullName(id); };
+    lines += BreachText(FromMessage(*agent.breach), name, 0) + "\n";
+  }
+  if (broken > kLinesMax) lines += "and " + std::to_string(broken - kLinesMax) + " more\n";
+  return lines;
+}
+
 }  // namespace
 
 std::string SinceText(std::int64_t instant_ns) {
@@ -94,8 +108,9 @@ std::string NumberText(double value, const char* format) {
 std::string AgentsPage(const WorldView& view) {
   std::vector<std::vector<std::string>> rows = {
       {"ID", "NAME", "SHAPE", "RADIUS [m]", "M [m/s²]", "STATE AT", "POSITION [m]", "CLEAR UNTIL"}};
-  for (const AgentView& agent : view.Agents()) rows.push_back(AgentRow(agent));
-  std::string page = Table(rows);
+  const std::vector<AgentView> agents = view.Agents();
+  for (const AgentView& agent : agents) rows.push_back(AgentRow(agent));
+  std::string page = Table(rows) + BreachLines(agents, view);
   for (const UnknownAgents& unknown : view.Unknown()) {
     page += "and " + std::to_string(unknown.agents) + " held of " + unknown.simulator +
             ", which is not heard: nothing is known of them here\n";

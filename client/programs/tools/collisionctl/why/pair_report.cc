@@ -9,6 +9,7 @@
 #include "client/library/validation.h"
 #include "client/programs/tools/collisionctl/why/agent_lookup.h"
 #include "collision_core/intersection/earliest_intersection.h"
+#include "idl/hello_extensions.h"
 
 namespace collision::client {
 namespace {
@@ -85,7 +86,35 @@ bool AreListed(const v1::AgentDescription& a, const v1::AgentDescription& b, boo
                      Lists(b.meets_in_assembly(), a.agent_name());
 }
 
-void FindFilters(PairReport* report) {
+/// Whether one of the names in `list`, separated by blanks, is this.
+bool Names(const std::string& list, const std::string& name) {
+  return (" " + list + " ").find(" " + name + " ") != std::string::npos;
+}
+
+/// Whether two classes meet; nullopt: the service does not tell.
+std::optional<bool> ClassesMeet(const std::string& a, const std::string& b, const WorldView& view) {
+  const std::string key(wire::kClassExtension);
+  const auto listed_by_a = view.HelloExtension(key + a), listed_by_b = view.HelloExtension(key + b);
+  if (!listed_by_a || !listed_by_b) return std::nullopt;
+  return Names(*listed_by_a, b) || Names(*listed_by_b, a);
+}
+
+void FindConfigured(const WorldView& view, PairReport* report) {
+  const v1::AgentDescription& a = report->a.agent.description;
+  const v1::AgentDescription& b = report->b.agent.description;
+  if (!a.class_name().empty() && !b.class_name().empty()) {
+    const std::optional<bool> meet = ClassesMeet(a.class_name(), b.class_name(), view);
+    const std::string classes = "class " + a.class_name();
+    if (!meet) report->not_told.push_back("whether " + classes + " meets class " + b.class_name());
+    if (meet == false) report->apart.push_back(classes + " does not meet class " + b.class_name());
+  }
+  const auto excluded = view.HelloExtension(std::string(wire::kExcludedExtension));
+  if (excluded == "0") return;
+  report->not_told.push_back("whether the configuration excludes the pair" +
+                             (excluded ? ", one of " + *excluded : std::string()));
+}
+
+void FindFilters(const WorldView& view, PairReport* report) {
   const v1::AgentDescription& a = report->a.agent.description;
   const v1::AgentDescription& b = report->b.agent.description;
   if (a.simulator_id() == b.simulator_id()) {
@@ -101,13 +130,7 @@ void FindFilters(PairReport* report) {
       report->apart.push_back("the service does not hold " + one->name);
     }
   }
-  if (!a.class_name().empty() && !b.class_name().empty()) {
-    report->not_told.push_back("whether class " + a.class_name() + " meets class " +
-                               b.class_name());
-  }
-  if (a.simulator_id() != b.simulator_id()) {
-    report->not_told.push_back("whether the configuration excludes the pair");
-  }
+  FindConfigured(view, report);
 }
 
 /// Distance, earliest time, and how far each can be by then.
@@ -162,7 +185,7 @@ PairReport ReportOn(const AgentView& a, const AgentView& b,
   report.event = event;
   report.a = BoundOf(a, report, view);
   report.b = BoundOf(b, report, view);
-  FindFilters(&report);
+  FindFilters(view, &report);
   if (report.a.unusable.empty() && report.b.unusable.empty()) Meet(&report);
   return report;
 }

@@ -44,6 +44,13 @@ std::string BoundsText(const v1::AgentDescription& description) {
   return text;
 }
 
+/// "speed_max_m_s, 4 times", as of the last breach that was told.
+std::string BrokenText(const AgentView& agent) {
+  if (!agent.breach) return "nothing";
+  return agent.breach->field() + ", " + std::to_string(agent.breach->count()) +
+         (agent.breach->count() == 1 ? " time" : " times");
+}
+
 std::string ClearText(const AgentView& agent) {
   if (!agent.clearance) return "not told";
   const v1::AgentClearance& clearance = *agent.clearance;
@@ -122,6 +129,10 @@ Rows AgentRows(const PairReport& report) {
   reach("reach now", &BoundReport::now);
   if (report.earliest_ns && *report.earliest_ns != kNever) {
     reach("reach at the earliest", &BoundReport::at_earliest);
+  }
+  if (report.a.agent.breach || report.b.agent.breach) {
+    Add(
+        "broken", report, [](const auto& one) { return BrokenText(one.agent); }, &rows);
   }
   rows.push_back({"clear until", ClearText(report.a.agent), ClearText(report.b.agent)});
   return rows;

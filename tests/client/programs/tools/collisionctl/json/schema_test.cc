@@ -75,6 +75,8 @@ class SchemaTest : public CollisionctlTest {
     v1::AgentClearance* clearance = next_.outputs.back().mutable_clearance()->mutable_agents(0);
     clearance->set_cause(v1::CAUSE_BREACH);
     clearance->mutable_cause_agent()->set_simulator_id(5);
+    Break(7, 0)->set_seen(std::numeric_limits<double>::infinity());
+    Break(7, 1);
   }
 
   std::vector<std::string> Documents() const {

@@ -9,6 +9,7 @@
 #include "client/programs/tools/collisionctl/why/agent_lookup.h"
 #include "client/programs/tools/collisionctl/why/why_page.h"
 #include "collision_core/motion/space_time_bound.h"
+#include "idl/limits.h"
 #include "tests/client/fake_transport.h"
 #include "tests/client/programs/tools/collisionctl/json/schema_check.h"
 #include "tests/client/programs/tools/collisionctl_fixture.h"
@@ -173,8 +174,42 @@ TEST_F(WhyTest, NeverMeetsWins) {
   Of(1)->set_class_name("person");
   const PairReport report = Report();
   EXPECT_EQ(report.apart, std::vector<std::string>{"one lists the other in never_meets"});
-  EXPECT_EQ(report.not_told, std::vector<std::string>{"whether class robot meets class person"});
+  EXPECT_EQ(report.not_told,
+            (std::vector<std::string>{"whether class robot meets class person",
+                                      "whether the configuration excludes the pair"}))
+      << "no hello has come";
   EXPECT_TRUE(AdviceOn(report).starts_with("nothing: the pair is not looked at, since one lists"));
+}
+
+// Goal:   what the hello of the service says of classes and excluded pairs is said.
+TEST_F(WhyTest, TellsWhichClassesOfTheConfigurationMeet) {
+  const auto report = [this](const std::string& a, const std::string& b,
+                             const std::string& excluded) {
+    v1::ServiceHello* hello = next_.outputs.emplace_back().mutable_service_hello();
+    hello->set_service_id(1);
+    hello->set_wire_revision(wire::kWireRevision);
+    for (const auto& [key, value] : {std::pair("excluded", excluded),
+                                     {"class.robot", "forklift robots"},
+                                     {"class.forklift", ""},
+                                     {"class.robots", ""}}) {
+      v1::KeyValue* extension = hello->add_extensions();
+      extension->set_key(key);
+      extension->set_value(value);
+    }
+    Describe("ada", 7, 0)->set_class_name(a);
+    Describe("bob", 7, 1)->set_class_name(b);
+    return Report();
+  };
+  for (const char* met : {"forklift", "robots"}) {
+    EXPECT_TRUE(report(met, "robot", "0").apart.empty()) << "one of them lists the other";
+    EXPECT_TRUE(report("robot", met, "0").apart.empty()) << met;
+    EXPECT_TRUE(report("robot", met, "0").not_told.empty()) << met;
+  }
+  EXPECT_EQ(report("robots", "forklift", "0").apart,
+            std::vector<std::string>{"class robots does not meet class forklift"});
+  EXPECT_EQ(report("robot", "unknown", "3").not_told,
+            (std::vector<std::string>{"whether class robot meets class unknown",
+                                      "whether the configuration excludes the pair, one of 3"}));
 }
 
 TEST_F(WhyTest, TwoThatCannotMoveAreNotLookedAt) {
