@@ -114,14 +114,14 @@ std::string ShapesText(const Event& event) {
     }
     text += PointText(event) + NormalText(event);
   }
-  text +=
-      "  level " + std::to_string(event.level) + ", " + std::to_string(event.work_units) + " units";
+  text += "  tree level " + std::to_string(event.tree_level) + ", " +
+          std::to_string(event.work_units) + " units";
   return text + LimitText(event);
 }
 
 std::string GapText(const Event& event) {
   if (event.evaluated_at_ns == kNever) return "";
-  if (event.level > 0) {
+  if (event.tree_level > 0) {
     return "  gap [" + MetresText(event.separation_lower_m, Rounding::kDown) + ", " +
            MetresText(event.separation_upper_m, Rounding::kUp) + "] m" + ShapesText(event);
   }
@@ -198,8 +198,8 @@ std::string EventLine(const Event& event, const AgentNamer& name, std::int64_t o
                 Name(event.status));
   return head + Padded(name(event.lower) + " × " + name(event.higher), kPairColumns) + "  #" +
          std::to_string(event.contact) + " r" + std::to_string(event.revision) + "  " +
-         WhenText(event, origin_ns) + GapText(event) +
-         (event.because.empty() ? "" : "  because " + event.because);
+         (event.level.empty() ? "" : "level " + event.level + "  ") + WhenText(event, origin_ns) +
+         GapText(event) + (event.because.empty() ? "" : "  because " + event.because);
 }
 
 }  // namespace collision::client

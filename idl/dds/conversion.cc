@@ -149,8 +149,8 @@ FIELDS(CollisionEvent,
        VALUE(revision) VALUE(status) MESSAGE(begin) MESSAGE(end)
        VALUE(continuous) VALUE(began_before) VALUE(evaluated_at_ns) MESSAGE(separation_m)
        VALUE(depth_lower_m) MESSAGE(point_m) VALUE(point_error_m) MESSAGE(normal)
-       VALUE(normal_error_rad) VALUE(level) VALUE(work_units) VALUE(limited_by)
-       LIST(extensions, wire::kEventExtensionsMax) VALUE(margin_m))
+       VALUE(normal_error_rad) VALUE(tree_level) VALUE(work_units) VALUE(limited_by)
+       LIST(extensions, wire::kEventExtensionsMax) VALUE(margin_m) TEXT(level))
 
 FIELDS(Rejection,
        VALUE(simulator_id) VALUE(region) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(run_in_force)

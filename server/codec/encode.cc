@@ -58,7 +58,7 @@ v1::CollisionEvent Encode(const detection::CollisionEvent& event) {
   wire.set_point_error_m(event.point_error);
   *wire.mutable_normal() = Encode(event.normal);
   wire.set_normal_error_rad(event.normal_error);
-  wire.set_level(event.level);
+  wire.set_tree_level(event.level);
   wire.set_work_units(event.work);
   wire.set_limited_by(static_cast<v1::EventLimit>(event.limited_by));
   return wire;

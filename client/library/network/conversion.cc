@@ -193,6 +193,7 @@ Event FromMessage(const v1::CollisionEvent& message) {
   event.normal = VectorOf(message.normal());
   event.normal_error_rad = message.normal_error_rad();
   event.level = message.level();
+  event.tree_level = message.tree_level();
   event.work_units = message.work_units();
   event.limited_by = static_cast<EventLimit>(message.limited_by());
   for (const v1::KeyValue& extension : message.extensions()) {

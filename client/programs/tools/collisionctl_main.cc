@@ -51,7 +51,7 @@ struct Options {
   TopOptions top_view;
   std::string pair[2];  ///< Of why.
   bool explain = false;
-  std::vector<std::string> agents, statuses;
+  std::vector<std::string> agents, statuses, levels;
   std::optional<double> within_s, since_s;
   std::optional<std::size_t> top;
   double period_s = 1;
@@ -105,6 +105,7 @@ std::optional<std::int64_t> Nanoseconds(const std::optional<double>& seconds) {
 
 EventFilter FilterOf(const Options& options) {
   EventFilter filter{.agents = options.agents,
+                     .levels = options.levels,
                      .within_ns = Nanoseconds(options.within_s),
                      .since_ns = Nanoseconds(options.since_s),
                      .top = options.top};
@@ -265,6 +266,10 @@ void AddEvents(CLI::App* app, Options* options) {
                    "Only these: possible, confirmed, dismissed, undecided, withdrawn, ended")
       ->delimiter(',')
       ->check(StatusWord());
+  events
+      ->add_option("--level", options->levels,
+                   "Only events of these levels of the service; contact: of contact itself")
+      ->delimiter(',');
   events
       ->add_option("--within", options->within_s,
                    "Only what begins at most so many seconds ahead of now, 0 to 1e9")

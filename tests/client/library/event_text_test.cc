@@ -55,7 +55,7 @@ Event OfShapes() {
   event.normal[0] = 0.6;
   event.normal[1] = -0.8;
   event.normal_error_rad = 0.0873;
-  event.level = 6;
+  event.tree_level = 6;
   event.work_units = 1840;
   event.limited_by = EventLimit::kBudget;
   return event;
@@ -70,7 +70,7 @@ std::string FromGap(const Event& event) {
 TEST(EventText, AContactOfShapesHasPlaceDepthAndLimit) {
   EXPECT_EQ(FromGap(OfShapes()),
             "  gap [-3, -0.123] m  depth ≥ 0.234 m  at (1.25, -1234.57, 0.00) ± 0.169 m  "
-            "normal (0.600, -0.800, 0.000) ± 5.06°  level 6, 1840 units, limited by budget");
+            "normal (0.600, -0.800, 0.000) ± 5.06°  tree level 6, 1840 units, limited by budget");
 }
 
 TEST(EventText, AContactOfShapesLeavesOutWhatIsUnknown) {
@@ -81,13 +81,13 @@ TEST(EventText, AContactOfShapesLeavesOutWhatIsUnknown) {
   event.limited_by = EventLimit::kNone;
   EXPECT_EQ(FromGap(event),
             "  gap [-3, -0.123] m  at (1.250000000, -1234.567890000, 0.000000000) ± 8.67e-10 m  "
-            "level 6, 1840 units");
+            "tree level 6, 1840 units");
   event.point_error_m = 1e6;
   EXPECT_NE(FromGap(event).find("  at (1, -1235, 0) ± 1.01e+06 m"), std::string::npos)
       << FromGap(event);
   event.separation_upper_m = 0.5;
   event.limited_by = EventLimit::kGeometry;
-  EXPECT_EQ(FromGap(event), "  gap [-3, 0.5] m  level 6, 1840 units, limited by geometry");
+  EXPECT_EQ(FromGap(event), "  gap [-3, 0.5] m  tree level 6, 1840 units, limited by geometry");
   event.limited_by = EventLimit::kMotion;
   EXPECT_NE(FromGap(event).find(", limited by motion"), std::string::npos);
 }
@@ -101,7 +101,7 @@ TEST(EventText, AnEventThatTheServiceEndedSaysWhy) {
 // The surface of a ball is known: there is nothing to search.
 TEST(EventText, BallsHaveNoLevel) {
   Event event = OfShapes();
-  event.level = 0;
+  event.tree_level = 0;
   EXPECT_EQ(FromGap(event), "  gap ≤ -0.123 m");
 }
 

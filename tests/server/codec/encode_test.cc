@@ -77,7 +77,7 @@ TEST(Encode, AnEventKeepsItsGeometryUnrounded) {
   EXPECT_EQ(wire.normal().y(), 0.48);
   EXPECT_EQ(wire.normal().z(), 0.8);
   EXPECT_EQ(wire.normal_error_rad(), 0.02);
-  EXPECT_EQ(wire.level(), 5u);
+  EXPECT_EQ(wire.tree_level(), 5u);
   EXPECT_EQ(wire.work_units(), 0xf000'0000'0000'0001);
   EXPECT_EQ(wire.limited_by(), v1::LIMIT_GEOMETRY);
 }

@@ -49,6 +49,7 @@ void AddEvent(const v1::CollisionEvent& message, const WorldView& view, JsonObje
       .Text("status", Name(event.status))
       .Add("lower", AgentReference(event.lower, message.lower_label(), view))
       .Add("higher", AgentReference(event.higher, message.higher_label(), view))
+      .TextOrNull("level", event.level)
       .Count("contact", event.contact)
       .Count("revision", event.revision);
   if (event.contacts_sequence > 0) {
@@ -62,7 +63,7 @@ void AddEvent(const v1::CollisionEvent& message, const WorldView& view, JsonObje
       .Flag("began_before", event.began_before)
       .Number("margin_m", event.margin_m);
   AddEvaluation(event, object);
-  object->Count("level", event.level)
+  object->Count("tree_level", event.tree_level)
       .Count("work_units", event.work_units)
       .Text("limited_by", Name(event.limited_by))
       .TextOrNull("because", event.because)
