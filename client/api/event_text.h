@@ -40,6 +40,7 @@ std::string BreachText(const Breach& breach, const AgentNamer& name, std::int64_
 /// The event in one line without a newline, with columns at the same places in every line:
 ///   599.734 s  confirmed  iridium-33 × cosmos-2251  #1 r3  begin [599.734236, 599.734370]  end
 ///   open  gap ≤ -0.12 m
+/// An event of a level names it before its begin.
 /// Times are seconds since `origin_ns` (0 in lock-step), or times of day as in TimeText(); brackets
 /// and gap are rounded outward. client/EVENTS.md explains each part.
 std::string EventLine(const Event& event, const AgentNamer& name, std::int64_t origin_ns);

@@ -93,7 +93,7 @@ struct EarliestIntersection {
 /// subscribe-only permission suffices.
 ///
 /// Of several services it believes the one in force, and drops what the others say. The event
-/// callback gets contacts and forecasts, each revision once.
+/// callback gets contacts and forecasts, each revision once, also those of levels (Event::level).
 ///
 /// Callbacks run inside Poll(), on its thread. Every topic but the rejections keeps its last value,
 /// so a late monitor receives the values of now, and the newest 1024 samples of contacts. One

@@ -198,9 +198,12 @@ struct Expectation {
   std::int64_t until_ns = 0;               ///< How far ahead it looked.
 };
 
-/// One revision of one contact of a pair. (lower, higher, contact) names the contact; a higher
-/// revision replaces a lower one. Every bracket contains the truth.
+/// One revision of one contact of a pair. (level, lower, higher, contact) names the contact; a
+/// higher revision replaces a lower one. Every bracket contains the truth.
 struct Event {
+  /// The level of the service's configuration whose margin the two cross: "touch" then means "come
+  /// within margin_m". Empty: they touch.
+  std::string level;
   AgentId lower;
   AgentId higher;
   AgentLabel lower_label;
@@ -228,7 +231,7 @@ struct Event {
   /// Since the event was announced, or of the contact. Final in dismissed and ended events; absent:
   /// nothing is known yet.
   std::optional<ClosestApproach> closest;
-  std::uint32_t level = 0;       ///< Depth of the sphere trees that decided it; 0: balls.
+  std::uint32_t tree_level = 0;  ///< Depth of the sphere trees that decided it; 0: balls.
   std::uint64_t work_units = 0;  ///< Spent on this contact so far.
   EventLimit limited_by = EventLimit::kNone;
   /// The service removed an agent of the pair: "silent", "evicted", "restarted" or "refused"; else

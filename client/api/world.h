@@ -50,6 +50,9 @@ struct WorldOptions {
   /// full speed. 0: 1 on demand, else 64.
   std::uint32_t chunk_size = 0;
   OnLeave on_leave = OnLeave::kRemove;
+  /// Levels of the service's configuration whose events are told beside contacts (Event::level). A
+  /// name that is not configured there tells nothing.
+  std::vector<std::string> levels = {};
   /// In real time: the clock that stamps are taken from, in nanoseconds since 1970. By it the
   /// service measures how far they are off. Empty: the system's.
   std::function<std::int64_t()> wall_clock = {};
@@ -150,7 +153,8 @@ class World {
   void Poll(std::chrono::nanoseconds timeout = std::chrono::nanoseconds(0));
 
   /// Calls back for events about this simulator's agents, contacts and forecasts alike: each
-  /// revision that tells something new once. When a grant counts, the contacts that the service
+  /// revision that tells something new once. Those of levels come where WorldOptions::levels names
+  /// them. When a grant counts, the contacts that the service
   /// published before it have been delivered, or count as missed. Without a callback
   /// they are kept until TakeEvents(): at most 65536, then the oldest are dropped and counted by
   /// events_lost(). A callback may call everything but WaitForService(), Join(), AdvanceTo() and

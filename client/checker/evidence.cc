@@ -65,7 +65,9 @@ Evidence::Evidence(std::vector<AgentMotion> motions, const Observations& observa
     const auto found = by_name.find({name.simulator(), name.agent()});
     if (found != by_name.end()) ids_[Key(name.id())] = found->second;
   }
-  for (const v1::CollisionEvent& event : observations.events) Sort(event);
+  for (const v1::CollisionEvent& event : observations.events) {
+    if (event.level().empty()) Sort(event);
+  }
 }
 
 void Evidence::Sort(const v1::CollisionEvent& event) {

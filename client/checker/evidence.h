@@ -17,7 +17,7 @@ namespace collision::checker {
 
 /// What a monitor received, in the order of arrival.
 struct Observations {
-  std::vector<v1::CollisionEvent> events;
+  std::vector<v1::CollisionEvent> events;  ///< Those of levels are not judged.
   std::vector<v1::EarliestIntersection> earliest;
   std::vector<v1::Clearance> clearances;
   std::vector<v1::AgentName> names;

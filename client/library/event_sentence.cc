@@ -220,8 +220,8 @@ class Writer {
 std::string MarginText(const Event& event) {
   if (event.margin_m <= 0) return "";
   char text[64];
-  std::snprintf(text, sizeof text, " (within %.6g m counts as touching)", event.margin_m);
-  return text;
+  std::snprintf(text, sizeof text, " (within %.6g m counts as touching", event.margin_m);
+  return text + (event.level.empty() ? std::string(")") : ": level " + event.level + ")");
 }
 
 }  // namespace

@@ -122,8 +122,8 @@ std::string ShapesText(const Event& event, const Proximity& proximity) {
     }
     text += PointText(proximity) + NormalText(proximity) + PartsText(proximity);
   }
-  text +=
-      "  level " + std::to_string(event.level) + ", " + std::to_string(event.work_units) + " units";
+  text += "  tree level " + std::to_string(event.tree_level) + ", " +
+          std::to_string(event.work_units) + " units";
   return text + LimitText(event);
 }
 
@@ -137,7 +137,7 @@ std::string GapText(const Event& event) {
   const Proximity& proximity = *event.proximity;
   const std::string between =
       "  gap " + BetweenText(proximity.separation_lower_m, proximity.separation_upper_m);
-  if (event.level > 0) return between + ShapesText(event, proximity);
+  if (event.tree_level > 0) return between + ShapesText(event, proximity);
   if (proximity.separation_upper_m <= 0) {
     return "  gap ≤ " + MetresText(proximity.separation_upper_m, Rounding::kUp) + " m";
   }
@@ -247,9 +247,9 @@ std::string EventLine(const Event& event, const AgentNamer& name, std::int64_t o
                 Name(event.status));
   return head + Padded(name(event.lower) + " × " + name(event.higher), kPairColumns) + "  #" +
          std::to_string(event.contact) + " r" + std::to_string(event.revision) + "  " +
-         WhenText(event, origin_ns) + GapText(event) + SpeedText(event) +
-         ExpectedText(event, origin_ns) + ClosestText(event, origin_ns) +
-         (event.because.empty() ? "" : "  because " + event.because);
+         (event.level.empty() ? "" : "level " + event.level + "  ") + WhenText(event, origin_ns) +
+         GapText(event) + SpeedText(event) + ExpectedText(event, origin_ns) +
+         ClosestText(event, origin_ns) + (event.because.empty() ? "" : "  because " + event.because);
 }
 
 }  // namespace collision::client

@@ -179,8 +179,9 @@ FIELDS(CollisionEvent,
        MESSAGE(lower) MESSAGE(higher) MESSAGE(lower_label) MESSAGE(higher_label) VALUE(contact)
        VALUE(revision) VALUE(status) MESSAGE(begin) MESSAGE(end)
        VALUE(continuous) VALUE(began_before) OPTIONAL(proximity) OPTIONAL(lower_state)
-       OPTIONAL(higher_state) OPTIONAL(expected) OPTIONAL(closest) VALUE(level) VALUE(work_units) VALUE(limited_by)
-       LIST(extensions, wire::kEventExtensionsMax) VALUE(margin_m))
+       OPTIONAL(higher_state) OPTIONAL(expected) OPTIONAL(closest) VALUE(tree_level)
+       VALUE(work_units) VALUE(limited_by) LIST(extensions, wire::kEventExtensionsMax)
+       VALUE(margin_m) TEXT(level))
 
 FIELDS(Rejection,
        VALUE(simulator_id) VALUE(region) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(run_in_force)

@@ -114,7 +114,7 @@ v1::CollisionEvent Encode(const detection::CollisionEvent& event) {
   if (event.higher_state) *wire.mutable_higher_state() = Encode(*event.higher_state);
   if (event.expected) *wire.mutable_expected() = Encode(*event.expected);
   if (event.closest) *wire.mutable_closest() = Encode(*event.closest);
-  wire.set_level(event.level);
+  wire.set_tree_level(event.level);
   wire.set_work_units(event.work);
   wire.set_limited_by(static_cast<v1::EventLimit>(event.limited_by));
   return wire;

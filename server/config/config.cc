@@ -12,6 +12,7 @@
 #include "server/config/config_blocks.h"
 #include "server/config/config_options.h"
 #include "server/config/config_text.h"
+#include "server/config/level_blocks.h"
 #include "server/config/limit_blocks.h"
 #include "server/config/partner_blocks.h"
 
@@ -145,6 +146,7 @@ std::vector<ConfigError> CheckConfig(const v1::Config& complete) {
   CheckAgainst(complete, &errors);
   CheckLimitBlocks(complete, &errors);
   CheckPartnerBlocks(complete, &errors);
+  CheckLevelBlocks(complete, &errors);
   return errors;
 }
 

@@ -22,6 +22,12 @@ std::optional<BlockOfPath> FindBlock(const std::string& path) {
                      std::atoi(path.c_str() + bracket + 1)};
 }
 
+std::pair<std::string, std::string> SplitAtSlash(const std::string& names) {
+  const std::size_t slash = names.find('/');
+  if (slash == names.npos) return {names, {}};
+  return {names.substr(0, slash), names.substr(slash + 1)};
+}
+
 std::string FieldNames(const google::protobuf::Descriptor& type) {
   std::string names;
   for (int i = 0; i < type.field_count(); ++i) {

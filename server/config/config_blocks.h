@@ -1,4 +1,5 @@
-// The blocks of the configuration that may occur several times: limits, classes, excluded.
+// The blocks of the configuration that may occur several times: limits, classes, excluded,
+// levels.
 #pragma once
 
 #include <google/protobuf/descriptor.h>
@@ -6,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace collision::server {
 
@@ -22,6 +24,10 @@ struct BlockOfPath {
 };
 /// nullopt: it leads into none.
 std::optional<BlockOfPath> FindBlock(const std::string& path);
+
+/// The two names of "simulator/agent" or "class/class". First ones have no slash, so that the first
+/// slash separates; without one the second name is empty.
+std::pair<std::string, std::string> SplitAtSlash(const std::string& names);
 
 /// The names of all fields, "name, meets".
 std::string FieldNames(const google::protobuf::Descriptor& type);

@@ -50,6 +50,9 @@ std::uint64_t ConfigurationDigest(const v1::Config& complete) {
   for (const v1::ExcludedPair& block : complete.excluded()) {
     text.append("excluded: ").append(block.ShortDebugString()).append("\n");
   }
+  for (const v1::Level& block : complete.levels()) {
+    text.append("levels: ").append(block.ShortDebugString()).append("\n");
+  }
   const std::uint64_t digest = Fnv1a(text);
   return digest != 0 ? digest : 1;
 }

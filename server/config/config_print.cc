@@ -48,6 +48,27 @@ constexpr std::string_view kExcludedMeaning =
 constexpr std::string_view kExcludedFacts =
     "Unit: none. Range: two different agents; at most 4096 blocks. Default: no block.";
 
+constexpr std::string_view kLevelsMeaning =
+    "What is told beside contacts: levels { name: \"near\" margin_m: 0.5 look_ahead_s: 5 "
+    "hysteresis_m: 0.1 between: \"robot/person\" }, as often as needed. Two agents that come "
+    "within "
+    "margin_m of each other (beside their own margins) get events like those of a contact, under "
+    "the "
+    "name of the level; clearances and grants do not change. look_ahead_s stands for "
+    "announce_within_s; basis EXPECTED leaves out forecasts that are not expected, where that is "
+    "known. With hysteresis_m a pair is told again only after it was certainly farther apart than "
+    "margin_m + hysteresis_m. between names pairs of classes that meet each other (agents without "
+    "a "
+    "class are then not watched); without it all that can meet are watched. A level costs about as "
+    "much as the detection of contacts, one with a hysteresis twice that; all together have a "
+    "quarter of step_budget_us.";
+
+constexpr std::string_view kLevelsFacts =
+    "Unit: m, s. Range: names of 1 to 32 of A-Z a-z 0-9 _ -; margin_m 2e-06 to 1e12, hysteresis_m "
+    "0 "
+    "to 1e12, look_ahead_s temporal_resolution_s to 86400 (unset: announce_within_s); at most 8 "
+    "blocks. Default: no block.";
+
 /// As a comment, broken between words.
 void PrintComment(std::string_view text, const std::string& indent, std::ostream& out) {
   std::istringstream words{std::string(text)};
@@ -110,6 +131,7 @@ std::string PrintConfig(const v1::Config& complete) {
   PrintBlocks("limits", kLimitsMeaning, kLimitsFacts, complete.limits(), out);
   PrintBlocks("classes", kClassesMeaning, kClassesFacts, complete.classes(), out);
   PrintBlocks("excluded", kExcludedMeaning, kExcludedFacts, complete.excluded(), out);
+  PrintBlocks("levels", kLevelsMeaning, kLevelsFacts, complete.levels(), out);
   return out.str();
 }
 

@@ -10,6 +10,7 @@
 
 #include "server/config/config_blocks.h"
 #include "server/config/config_options.h"
+#include "server/config/level_blocks.h"
 #include "server/config/limit_blocks.h"
 #include "server/config/partner_blocks.h"
 
@@ -141,6 +142,12 @@ std::string NewWord(const std::string& message) {
   return "";
 }
 
+std::string AllowedInBlock(const BlockOfPath& block, const std::string& field) {
+  if (block.field->name() == "limits") return AllowedInLimitBlock(field);
+  if (block.field->name() == "levels") return AllowedInLevelBlock(field);
+  return AllowedInPartnerBlock(block, field);
+}
+
 /// What is wrong with the field of this path, and what is allowed there.
 std::string Explain(const std::string& path, const std::string& message) {
   const auto options = ConfigOptions();
@@ -153,9 +160,7 @@ std::string Explain(const std::string& path, const std::string& message) {
   const std::string leaf = path.substr(path.rfind('.') + 1);
   const std::string error = path + ": " + Legible(message);
   if (const auto block = FindBlock(path); block && leaf != path) {
-    const bool limits = block->field->name() == "limits";
-    return error + "; allowed: " +
-           (limits ? AllowedInLimitBlock(leaf) : AllowedInPartnerBlock(*block, leaf));
+    return error + "; allowed: " + AllowedInBlock(*block, leaf);
   }
   const ConfigOption* meant = FindConfigOption(leaf);
   return error + (meant == nullptr ? "" : "; meant is " + std::string(meant->path) + "?");

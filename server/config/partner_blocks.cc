@@ -54,7 +54,7 @@ void CheckClasses(const v1::Config& config, std::vector<ConfigError>* errors) {
 }
 
 bool NamesAgent(const std::string& name) {
-  const auto [simulator, agent] = SplitAgentName(name);
+  const auto [simulator, agent] = SplitAtSlash(name);
   return wire::IsName(simulator) && !agent.empty() && agent.size() <= wire::kNameMax;
 }
 
@@ -72,12 +72,6 @@ void CheckExcluded(const v1::Config& config, std::vector<ConfigError>* errors) {
 }
 
 }  // namespace
-
-std::pair<std::string, std::string> SplitAgentName(const std::string& name) {
-  const std::size_t slash = name.find('/');
-  if (slash == name.npos) return {name, {}};
-  return {name.substr(0, slash), name.substr(slash + 1)};
-}
 
 std::string AllowedInPartnerBlock(const BlockOfPath& block, std::string_view field) {
   const google::protobuf::Descriptor& type = *block.field->message_type();

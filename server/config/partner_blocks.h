@@ -3,7 +3,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "idl/config.pb.h"
@@ -14,10 +13,6 @@ namespace collision::server {
 
 /// Blocks of `excluded` in one configuration.
 inline constexpr int kExcludedPairsMax = 4096;
-
-/// Simulator and agent of "simulator/agent". Names of simulators have no slash, so that the first
-/// one separates; without one the agent is empty.
-std::pair<std::string, std::string> SplitAgentName(const std::string& name);
 
 /// What a field of such a block may be; for a name that no field has, the names that there are.
 std::string AllowedInPartnerBlock(const BlockOfPath& block, std::string_view field);

@@ -10,11 +10,11 @@
 
 namespace collision::server {
 
-AgentRegistry::AgentRegistry(const v1::Config& config, World* world, detection::Detector* detector,
+AgentRegistry::AgentRegistry(const v1::Config& config, World* world, Detectors* detectors,
                              Rejections* rejections, AgentShapes* shapes)
     : agents_max_(config.agents_max()),
       world_(*world),
-      detector_(*detector),
+      detectors_(*detectors),
       rejections_(*rejections),
       shapes_(*shapes),
       names_(config),
@@ -65,7 +65,7 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
   shapes_.Refer(simulator, wire.slot(), ShapeHashOf(wire), agent);
   if (!agent->admitted()) return;
   const detection::AgentId id = simulator->IdOf(wire.slot(), agent->generation());
-  detector_.Redeclare(id, agent->declaration, world_.EffectiveFrom(agent->stamp()));
+  detectors_.Redeclare(id, agent->declaration, world_.EffectiveFrom(agent->stamp()));
   world_.AddRevision({id, wire.revision()});
 }
 
@@ -111,7 +111,7 @@ void AgentRegistry::Update(Simulator* simulator, std::uint32_t slot, std::uint64
   const detection::UpdateOutcome outcome =
       state.stamp < agent.stamp() ? detection::UpdateOutcome::kOlder
       : agent.former              ? UpdateFormer(id, agent, state)
-                                  : detector_.Update(id, state, world_.EffectiveFrom(state.stamp));
+                                  : detectors_.Update(id, state, world_.EffectiveFrom(state.stamp));
   if (outcome == detection::UpdateOutcome::kOlder) {
     ++counters_.states_older;
     return;
@@ -139,9 +139,9 @@ detection::UpdateOutcome AgentRegistry::UpdateFormer(const detection::AgentId& i
                                                      const Agent& agent,
                                                      const motion::MotionState& state) {
   const Instant effective = world_.EffectiveFrom(state.stamp);
-  detector_.Redeclare(id, FormerOf(agent), effective);
-  const detection::UpdateOutcome outcome = detector_.Update(id, state, effective);
-  detector_.Redeclare(id, agent.declaration, effective);
+  detectors_.Redeclare(id, FormerOf(agent), effective);
+  const detection::UpdateOutcome outcome = detectors_.Update(id, state, effective);
+  detectors_.Redeclare(id, agent.declaration, effective);
   return outcome;
 }
 
@@ -219,13 +219,14 @@ void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
                     "guaranteed is kept)",
                     world_.quotas().Used(simulator->id(), Resource::kAgents),
                     world_.quotas().ShareOf(simulator->id(), Resource::kAgents).max, agents_max_,
-                    detector_.agents())));
+                    detectors_.contacts().agents())));
   }
   Admit(simulator, slot, agents.TakeWaiting(slot).back());
 }
 
 bool AgentRegistry::HasRoomForAgent(const Simulator& simulator) const {
-  const std::uint64_t free = agents_max_ - std::min<std::uint64_t>(agents_max_, detector_.agents());
+  const std::uint64_t free =
+      agents_max_ - std::min<std::uint64_t>(agents_max_, detectors_.contacts().agents());
   return world_.quotas().RoomFor(simulator.id(), Resource::kAgents, free) > 0;
 }
 
@@ -238,19 +239,19 @@ void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const Waitin
   agent.EndFormer(waiting.sequence);
   const Instant effective = world_.EffectiveFrom(stamp);
   const detection::AgentDeclaration& declared = agent.declaration;
-  if (!detector_.Admit(id, agent.former ? FormerOf(agent) : declared, waiting.state, effective)) {
+  if (!detectors_.Admit(id, agent.former ? FormerOf(agent) : declared, waiting.state, effective)) {
     return;
   }
-  if (agent.former) detector_.Redeclare(id, declared, effective);
+  if (agent.former) detectors_.Redeclare(id, declared, effective);
   world_.quotas().Take(simulator->id(), Resource::kAgents, 1);
-  detector_.SetPairShare(OwnerOf(id), world_.quotas().ShareOf(simulator->id(), Resource::kPairs));
+  detectors_.SetPairShare(OwnerOf(id), world_.quotas().ShareOf(simulator->id(), Resource::kPairs));
   ++counters_.admitted;
   if (agent.room_refused) {
     simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, slot);
   }
   CountAccepted(simulator);
   simulator->agents().Admit(slot, stamp, waiting.sequence);
-  if (simulator->time().clock()) detector_.SetHeardUntil(OwnerOf(id), *simulator->time().clock());
+  if (simulator->time().clock()) detectors_.SetHeardUntil(OwnerOf(id), *simulator->time().clock());
 }
 
 void AgentRegistry::CountAccepted(Simulator* simulator) {
@@ -296,7 +297,7 @@ void AgentRegistry::Withdraw(const Simulator& simulator, std::uint32_t slot, con
   const detection::AgentId id = simulator.IdOf(slot, agent.generation());
   const Instant told = simulator.time().clock().value_or(Instant::Always());
   world_.departed().Add(id, agent.label, std::max(agent.stamp(), told));
-  detector_.Remove(id);
+  detectors_.Remove(id);
   world_.quotas().GiveBack(simulator.id(), Resource::kAgents, 1);
   ++counters_.removed;
 }
@@ -318,7 +319,7 @@ void AgentRegistry::ExpelAll(Simulator* simulator) {
 
 void AgentRegistry::VoidAll(Simulator* simulator, Instant from) {
   AgentTable& agents = simulator->agents();
-  detector_.VoidOwner({simulator->id(), simulator->run()}, from);
+  detectors_.VoidOwner({simulator->id(), simulator->run()}, from);
   agents.ForEachSlot([&](std::uint32_t slot) { agents.DropWaiting(slot); });
 }
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "collision_core/detection/detector.h"
+#include "server/detectors/detectors.h"
 #include "server/intake/agent_breaches.h"
 #include "server/intake/agent_shapes.h"
 #include "server/intake/overdue_queue.h"
@@ -42,7 +42,7 @@ struct AgentCounters {
 class AgentRegistry {
  public:
   /// Everything passed in outlives this.
-  AgentRegistry(const v1::Config& config, World* world, detection::Detector* detector,
+  AgentRegistry(const v1::Config& config, World* world, Detectors* detectors,
                 Rejections* rejections, AgentShapes* shapes);
 
   /// Takes a description from the owner of its simulator; `declaration`: as decoded, without the
@@ -123,7 +123,7 @@ class AgentRegistry {
 
   const std::uint32_t agents_max_;
   World& world_;
-  detection::Detector& detector_;
+  Detectors& detectors_;
   Rejections& rejections_;
   AgentShapes& shapes_;
   /// By simulator and slot: each slot of which anything has been told since it last took effect.

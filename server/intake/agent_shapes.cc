@@ -42,10 +42,10 @@ void LogShape(const std::string& hash, const ReadyShape& ready) {
 
 }  // namespace
 
-AgentShapes::AgentShapes(const v1::Config& config, World* world, detection::Detector* detector,
+AgentShapes::AgentShapes(const v1::Config& config, World* world, Detectors* detectors,
                          Rejections* rejections, ShapeStore* store)
     : world_(*world),
-      detector_(*detector),
+      detectors_(*detectors),
       rejections_(*rejections),
       store_(*store),
       grown_(config.tree_bytes_max(), &world->quotas()),
@@ -130,8 +130,8 @@ void AgentShapes::TakeReady(const v1::ShapeReady& message) {
     if (ready->refined && !agent->declaration.shape) continue;
     Give(*simulator, slot, agent);
     if (agent->admitted()) {
-      detector_.Redeclare(simulator->IdOf(slot, agent->generation()), agent->declaration,
-                          world_.EffectiveFrom(agent->stamp()));
+      detectors_.Redeclare(simulator->IdOf(slot, agent->generation()), agent->declaration,
+                           world_.EffectiveFrom(agent->stamp()));
     }
   }
 }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "collision_core/detection/detector.h"
+#include "server/detectors/detectors.h"
 #include "server/intake/overdue_queue.h"
 #include "server/intake/shape_wait.h"
 #include "server/shapes/grown_shapes.h"
@@ -25,8 +25,8 @@ namespace collision::server {
 class AgentShapes {
  public:
   /// Everything passed in outlives this.
-  AgentShapes(const v1::Config& config, World* world, detection::Detector* detector,
-              Rejections* rejections, ShapeStore* store);
+  AgentShapes(const v1::Config& config, World* world, Detectors* detectors, Rejections* rejections,
+              ShapeStore* store);
 
   /// The agent refers to this shape from now on, and to no other; empty: to none.
   void Refer(Simulator* simulator, std::uint32_t slot, const std::string& hash, Agent* agent);
@@ -69,7 +69,7 @@ class AgentShapes {
   void ReportRefusal(const std::string& hash, const ReadyShape& ready);
 
   World& world_;
-  detection::Detector& detector_;
+  Detectors& detectors_;
   Rejections& rejections_;
   ShapeStore& store_;
   GrownShapes grown_;

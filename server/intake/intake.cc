@@ -21,16 +21,16 @@ Refusal Quarantined(Refusal where) {
 
 }  // namespace
 
-Intake::Intake(const v1::Config& config, std::uint64_t instance, World* world,
-               detection::Detector* detector, Rejections* rejections, ShapeStore* shapes)
+Intake::Intake(const v1::Config& config, std::uint64_t instance, World* world, Detectors* detectors,
+               Rejections* rejections, ShapeStore* shapes)
     : instance_(instance),
       world_(*world),
-      detector_(*detector),
+      detectors_(*detectors),
       rejections_(*rejections),
       shapes_(*shapes),
       classes_(config),
-      agent_shapes_(config, world, detector, rejections, shapes),
-      agents_(config, world, detector, rejections, &agent_shapes_),
+      agent_shapes_(config, world, detectors, rejections, shapes),
+      agents_(config, world, detectors, rejections, &agent_shapes_),
       sender_clocks_(config, world, &agents_),
       hello_(HelloOf(config)) {}
 
@@ -340,7 +340,7 @@ void Intake::TakeShapeRemoval(const v1::Input& input) {
 void Intake::Enact(Simulator* simulator) {
   agents_.Enact(simulator);
   if (!simulator->time().clock()) return;
-  detector_.SetHeardUntil({simulator->id(), simulator->run()}, *simulator->time().clock());
+  detectors_.SetHeardUntil({simulator->id(), simulator->run()}, *simulator->time().clock());
 }
 
 void Intake::Enact() {

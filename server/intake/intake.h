@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "collision_core/detection/detector.h"
 #include "server/codec/agent_classes.h"
+#include "server/detectors/detectors.h"
 #include "server/intake/agent_registry.h"
 #include "server/intake/agent_shapes.h"
 #include "server/intake/sender_clocks.h"
@@ -42,8 +42,8 @@ class Intake {
  public:
   /// Everything passed in outlives this. `instance`: of this service; what clocks acknowledge of
   /// another one's samples means nothing here.
-  Intake(const v1::Config& config, std::uint64_t instance, World* world,
-         detection::Detector* detector, Rejections* rejections, ShapeStore* shapes);
+  Intake(const v1::Config& config, std::uint64_t instance, World* world, Detectors* detectors,
+         Rejections* rejections, ShapeStore* shapes);
 
   void Apply(const v1::Input& input);
 
@@ -137,7 +137,7 @@ class Intake {
   const std::uint64_t instance_;
   bool contended_ = false;
   World& world_;
-  detection::Detector& detector_;
+  Detectors& detectors_;
   Rejections& rejections_;
   ShapeStore& shapes_;
   const AgentClasses classes_;

@@ -33,23 +33,24 @@ void Set(const Lowering& lowering, v1::AgentClearance* wire) {
   wire->set_void_from_ns(lowering.void_from.nanoseconds());
 }
 
-/// Events of agents that the service removed say so.
-v1::CollisionEvent Encode(const detection::CollisionEvent& event, const EndedRuns& ended) {
-  v1::CollisionEvent wire = server::Encode(event);
-  AddBecause(ended, &wire);
-  return wire;
-}
-
 }  // namespace
 
 Publisher::Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* bus)
     : claim_(*claim),
-      demand_(config),
       hello_(HelloOf(config)),
       bus_(*bus),
-      filter_(config),
       earliest_period_ns_(ToNanoseconds(config.earliest_period_s())),
-      resolution_s_(config.temporal_resolution_s()) {}
+      resolution_s_(config.temporal_resolution_s()) {
+  streams_.reserve(1 + config.levels_size());
+  const auto add = [&](const std::string& level, double announce_within) {
+    streams_.push_back({.level = level,
+                        .index = static_cast<std::uint32_t>(streams_.size()),
+                        .demand = StateDemand(config, announce_within),
+                        .filter = EventFilter(config)});
+  };
+  add("", config.announce_within_s());
+  for (const Level& level : LevelsOf(config)) add(level.name, level.look_ahead);
+}
 
 v1::ServiceStamp Publisher::NextStamp() {
   v1::ServiceStamp stamp;
@@ -95,7 +96,8 @@ void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t ch
   const auto end = clearances.lower_bound((chunk + 1) * kSlotsPerChunk);
   for (auto next = clearances.lower_bound(chunk * kSlotsPerChunk); next != end; ++next) {
     const Agent& agent = *simulator.agents().Find(next->first);
-    const Instant wanted = demand_.WantedAt(next->second, agent.stamp(), world.now());
+    const Instant wanted =
+        WantedAt(simulator.agents().clearances(), next->first, agent.stamp(), world.now());
     v1::AgentClearance& wire = *clearance.add_agents() =
         Encode(next->second, agent.acknowledged_sequence(), agent.acknowledged_revision(), wanted);
     wire.set_effective_from_ns(
@@ -106,62 +108,98 @@ void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t ch
   bus_.Publish(output);
 }
 
+/// The first time at which one of the detectors wants a state of the agent in the slot.
+Instant Publisher::WantedAt(const Clearances& clearances, std::uint32_t slot, Instant stamp,
+                            Instant now) const {
+  Instant wanted = streams_[0].demand.WantedAt(clearances.all().at(slot), stamp, now);
+  for (std::size_t level = 0; level + 1 < streams_.size(); ++level) {
+    const detection::AgentClearance* clearance = clearances.OfLevel(slot, level);
+    if (clearance == nullptr) continue;
+    wanted = std::min(wanted, streams_[level + 1].demand.WantedAt(*clearance, stamp, now));
+  }
+  return wanted;
+}
+
+/// Events of agents that the service removed say so. Pairs of all streams have different slots.
+v1::CollisionEvent Publisher::EncodeOf(const detection::CollisionEvent& event, const World& world,
+                                       const Stream& stream) const {
+  v1::CollisionEvent wire = Encode(event);
+  AddBecause(world.ended_runs(), &wire);
+  wire.set_level(stream.level);
+  wire.set_pair_slot(event.pair_slot * static_cast<std::uint32_t>(streams_.size()) + stream.index);
+  return wire;
+}
+
 std::vector<Telling> Publisher::Filter(const std::vector<detection::CollisionEvent>& events,
-                                       const World& world) {
+                                       const World& world, Stream* stream) {
   for (const detection::CollisionEvent& event : events) {
-    event_log_.Add(Encode(event, world.ended_runs()));
-    labels_.Note(event, world);
+    event_log_.Add(EncodeOf(event, world, *stream));
+    stream->labels.Note(event, world);
   }
   // By the world's time where that is simulated, so that a run at any speed tells the same.
   const std::int64_t time_ns = world.simulated() ? world.now().nanoseconds() : world.monotonic_ns();
-  return filter_.Take(events, world.now(), time_ns);
+  return stream->filter.Take(events, world.now(), time_ns);
 }
 
 void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events,
-                              const World& world) {
-  for (const Telling& telling : Filter(events, world)) {
+                              const World& world, std::size_t stream) {
+  Stream& of = streams_.at(stream);
+  for (const Telling& telling : Filter(events, world, &of)) {
     if (claim_.speaks()) {
-      Publish(telling, world);
+      Publish(telling, world, &of);
     } else if (telling.contact) {
-      inherited_.Keep(telling.event, labels_.Of(telling.event));
+      of.inherited.Keep(telling.event, of.labels.Of(telling.event));
     }
   }
   if (claim_.speaks() && !world.simulated()) bus_.Flush();
 }
 
 void Publisher::Hear(const v1::Input& input) {
-  if (!claim_.speaks() && input.has_event_heard()) inherited_.Hear(input.event_heard());
+  if (claim_.speaks() || !input.has_event_heard()) return;
+  const auto stream = std::ranges::find(streams_, input.event_heard().level(), &Stream::level);
+  if (stream != streams_.end()) stream->inherited.Hear(input.event_heard());
+}
+
+void Publisher::ForgetUndecided(Instant before) {
+  for (Stream& stream : streams_) stream.inherited.DropUndecided(before);
 }
 
 void Publisher::PublishInherited(const World& world) {
   for (auto& [epoch, contact] : std::exchange(unheard_, {})) {
     PublishContact(std::move(contact), epoch);
   }
+  for (Stream& stream : streams_) PublishInherited(world, &stream);
+}
+
+void Publisher::PublishInherited(const World& world, Stream* stream) {
   std::set<std::pair<detection::AgentId, detection::AgentId>> told;
-  for (v1::CollisionEvent& contact : inherited_.TakeTold()) {
+  for (v1::CollisionEvent& contact : stream->inherited.TakeTold()) {
     told.insert({IdOf(contact.lower()), IdOf(contact.higher())});
     PublishContact(std::move(contact), epoch_);
   }
-  for (const UntoldContact& contact : inherited_.TakeUntold()) {
+  for (const UntoldContact& contact : stream->inherited.TakeUntold()) {
     told.insert({contact.event.lower, contact.event.higher});
-    PublishContact(ForReaders(contact.event, contact.labels, world), epoch_);
+    PublishContact(ForReaders(contact.event, contact.labels, world, stream), epoch_);
   }
-  for (const Telling& telling : filter_.Standing()) {
+  for (const Telling& telling : stream->filter.Standing()) {
     const detection::CollisionEvent& event = telling.event;
-    if (!telling.contact || !told.contains({event.lower, event.higher})) Publish(telling, world);
+    if (telling.contact && told.contains({event.lower, event.higher})) continue;
+    Publish(telling, world, stream);
   }
 }
 
 v1::CollisionEvent Publisher::ForReaders(const detection::CollisionEvent& event,
-                                         const PairLabels& labels, const World& world) {
-  v1::CollisionEvent wire = Encode(event, world.ended_runs());
+                                         const PairLabels& labels, const World& world,
+                                         Stream* stream) {
+  v1::CollisionEvent wire = EncodeOf(event, world, *stream);
   AddLabels(labels, &wire);
-  wire.set_contact(inherited_.NumberOf(event));
+  wire.set_contact(stream->inherited.NumberOf(event));
   return wire;
 }
 
-void Publisher::Publish(const Telling& telling, const World& world) {
-  v1::CollisionEvent event = ForReaders(telling.event, labels_.Of(telling.event), world);
+void Publisher::Publish(const Telling& telling, const World& world, Stream* stream) {
+  v1::CollisionEvent event =
+      ForReaders(telling.event, stream->labels.Of(telling.event), world, stream);
   if (telling.contact) return PublishContact(std::move(event), epoch_);
   ++events_.forecasts;
   *event.mutable_stamp() = NextStamp();
@@ -184,7 +222,7 @@ void Publisher::PublishContact(v1::CollisionEvent event, std::uint32_t epoch) {
 
 EventCounters Publisher::event_counters() const {
   EventCounters counters = events_;
-  counters.forecasts_withheld = filter_.withheld();
+  for (const Stream& stream : streams_) counters.forecasts_withheld += stream.filter.withheld();
   return counters;
 }
 
@@ -242,20 +280,24 @@ void Publisher::PublishBreaches(std::vector<v1::AgentBreach> breaches) {
 }
 
 void Publisher::BeginEpoch(std::uint32_t epoch, const World& world) {
-  if (!claim_.speaks()) {
-    for (v1::CollisionEvent& contact : inherited_.TakeTold()) {
-      unheard_.emplace_back(epoch_, std::move(contact));
-    }
-    for (const UntoldContact& contact : inherited_.TakeUntold()) {
-      unheard_.emplace_back(epoch_, ForReaders(contact.event, contact.labels, world));
-    }
-    while (unheard_.size() > InheritedEvents::kUntoldMax) unheard_.pop_front();
+  for (Stream& stream : streams_) {
+    if (!claim_.speaks()) KeepUnheard(world, &stream);
+    stream.filter.Forget();
+    stream.labels.Forget();
+    stream.inherited.BeginEpoch(epoch);
   }
+  while (unheard_.size() > InheritedEvents::kUntoldMax) unheard_.pop_front();
   epoch_ = epoch;
   earliest_.reset();
-  filter_.Forget();
-  labels_.Forget();
-  inherited_.BeginEpoch(epoch);
+}
+
+void Publisher::KeepUnheard(const World& world, Stream* stream) {
+  for (v1::CollisionEvent& contact : stream->inherited.TakeTold()) {
+    unheard_.emplace_back(epoch_, std::move(contact));
+  }
+  for (const UntoldContact& contact : stream->inherited.TakeUntold()) {
+    unheard_.emplace_back(epoch_, ForReaders(contact.event, contact.labels, world, stream));
+  }
 }
 
 void Publisher::ForgetBefore(std::uint32_t epoch) {

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "idl/config.pb.h"
 #include "server/bus/bus.h"
 #include "server/claim/service_claim.h"
+#include "server/detectors/level.h"
 #include "server/publish/event_filter.h"
 #include "server/publish/event_log.h"
 #include "server/publish/identity/event_labels.h"
@@ -49,7 +51,16 @@ class Publisher {
   /// hears first whom it has met. With a wall clock they are sent at once, before the clearances of
   /// all agents are written. While this service does not speak it takes
   /// note of them.
-  void PublishEvents(const std::vector<detection::CollisionEvent>& events, const World& world);
+  void PublishEvents(const std::vector<detection::CollisionEvent>& events, const World& world) {
+    PublishEvents(events, world, 0);
+  }
+
+  /// Likewise of a level, by its index in the configuration: its events have the name of the level.
+  /// Its crossings are contacts of the same history; its forecasts have a rate of their own.
+  void PublishLevelEvents(std::size_t level, const std::vector<detection::CollisionEvent>& events,
+                          const World& world) {
+    PublishEvents(events, world, level + 1);
+  }
 
   /// Every input, before it is applied. While this service does not speak
   /// (ServiceClaim::speaks()) it takes note of the events of another one.
@@ -57,7 +68,7 @@ class Publisher {
 
   /// As it stands by: what the service in force has not told of the time before this, it has found
   /// not to be. What this one found there and could not decide is dropped.
-  void ForgetUndecided(Instant before) { inherited_.DropUndecided(before); }
+  void ForgetUndecided(Instant before);
 
   /// This service has taken over and speaks from now on: publishes the contacts that the other one
   /// has not, and what stands told of pairs whose event is not over; readers know which of these
@@ -96,26 +107,42 @@ class Publisher {
   const EventLog& event_log() const { return event_log_; }
 
  private:
+  /// The events of one detector: of contacts, or of a level.
+  struct Stream {
+    std::string level;    ///< Empty: of contacts.
+    std::uint32_t index;  ///< Of this stream; that of contacts has 0.
+    StateDemand demand;
+    EventFilter filter;
+    EventLabels labels = {};
+    InheritedEvents inherited = {};
+  };
+
   v1::ServiceStamp NextStamp();
+  Instant WantedAt(const Clearances& clearances, std::uint32_t slot, Instant stamp,
+                   Instant now) const;
+  void PublishEvents(const std::vector<detection::CollisionEvent>& events, const World& world,
+                     std::size_t stream);
   std::vector<Telling> Filter(const std::vector<detection::CollisionEvent>& events,
-                              const World& world);
-  void Publish(const Telling& telling, const World& world);
+                              const World& world, Stream* stream);
+  void PublishInherited(const World& world, Stream* stream);
+  void Publish(const Telling& telling, const World& world, Stream* stream);
   v1::CollisionEvent ForReaders(const detection::CollisionEvent& event, const PairLabels& labels,
-                                const World& world);
+                                const World& world, Stream* stream);
+  v1::CollisionEvent EncodeOf(const detection::CollisionEvent& event, const World& world,
+                              const Stream& stream) const;
   void PublishContact(v1::CollisionEvent event, std::uint32_t epoch);
+  /// What nobody has heard of the epoch that ends.
+  void KeepUnheard(const World& world, Stream* stream);
   void PublishChunk(const World& world, Simulator* to, std::uint32_t chunk);
 
   const ServiceClaim& claim_;
-  const StateDemand demand_;
   v1::ServiceHello hello_;  ///< As published last.
   Bus& bus_;
   std::uint32_t epoch_ = 1;
   std::uint64_t sequence_ = 0;
   std::uint64_t newest_forecast_ = 0;  ///< Its sequence; 0: there was none.
   EventLog event_log_;
-  EventFilter filter_;
-  EventLabels labels_;
-  InheritedEvents inherited_;
+  std::vector<Stream> streams_;  ///< Of contacts, then of the levels in their order.
   std::deque<std::pair<std::uint32_t, v1::CollisionEvent>> unheard_;  ///< With their epochs.
   EventCounters events_;
   const std::int64_t earliest_period_ns_;

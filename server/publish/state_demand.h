@@ -23,9 +23,9 @@ namespace collision::server {
 ///    that brackets in time are as narrow as those of a stream.
 class StateDemand {
  public:
-  explicit StateDemand(const v1::Config& config)
-      : announce_within_(config.announce_within_s()),
-        temporal_resolution_(config.temporal_resolution_s()) {}
+  /// `announce_within` [s]: of the detector that gives the clearances.
+  StateDemand(const v1::Config& config, double announce_within)
+      : announce_within_(announce_within), temporal_resolution_(config.temporal_resolution_s()) {}
 
   Instant WantedAt(const detection::AgentClearance& clearance, Instant stamp, Instant now) const;
 

@@ -113,7 +113,7 @@ void AddDetection(const StatusSources& sources, v1::ServiceStatus* status) {
   Count("discontinuities", detector.jumps, status);
   Count("widenings", detector.widenings, status);
   Count("breaches", detector.breaches, status);
-  Count("queued", sources.detector.queued(), status);
+  Count("queued", sources.detectors.contacts().queued(), status);
   Count("queries", detector.queries, status);
   Count("queries_per_second", sources.queries_per_second, status);
   Count("pair_queries", detector.pair_queries, status);
@@ -121,9 +121,27 @@ void AddDetection(const StatusSources& sources, v1::ServiceStatus* status) {
   Count("method_changes", detector.method_changes, status);
   Count("segments", detector.segments, status);
   Count("work_units", detector.work_units, status);
-  Count("pairs_waiting", sources.detector.pairs_waiting(), status);
+  Count("pairs_waiting", sources.detectors.contacts().pairs_waiting(), status);
   Count("evaluations_cut_short", detector.evaluations_cut_short, status);
   Count("saturations", detector.saturations, status);
+}
+
+/// What the levels cost, and what their hysteresis held back. Nothing where there are none.
+void AddLevels(const Detectors& detectors, v1::ServiceStatus* status) {
+  if (detectors.levels().empty()) return;
+  std::uint64_t pairs = 0, work = 0, withheld = 0, waiting = 0;
+  for (const LevelDetector& level : detectors.levels()) {
+    withheld += level.withheld();
+    level.Each([&](const GrownDetector& one) {
+      pairs += one.detector().pairs_tracked();
+      waiting += one.detector().pairs_waiting();
+      work += one.detector().counters().work_units;
+    });
+  }
+  Count("levels_pairs_tracked", pairs, status);
+  Count("levels_pairs_waiting", waiting, status);
+  Count("levels_work_units", work, status);
+  Count("levels_withheld", withheld, status);
 }
 
 void AddExtension(const std::string& key, std::string value, v1::ServiceStatus* status) {
@@ -161,7 +179,7 @@ void AddQuotas(const StatusSources& sources, v1::ServiceStatus* status) {
   constexpr double kNearlyUsedUp = 0.8;
   const ShapeCounters shapes = sources.shapes.counters();
   const std::pair<Resource, std::uint64_t> used_by_all[] = {
-      {Resource::kAgents, sources.detector.agents()},
+      {Resource::kAgents, sources.detectors.contacts().agents()},
       {Resource::kShapes, shapes.places},
       {Resource::kShapeBytes, shapes.bytes},
       {Resource::kTreeBytes, shapes.tree_bytes}};
@@ -212,16 +230,18 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   status.set_now_ns(sources.world.now().nanoseconds());
   status.set_granted_until_ns(sources.world.granted().nanoseconds());
   status.set_lease_ns(wire::kServiceLease);
-  status.set_agents(static_cast<std::uint32_t>(sources.detector.agents()));
+  status.set_agents(static_cast<std::uint32_t>(sources.detectors.contacts().agents()));
   status.set_configuration(sources.configuration);
-  status.set_pairs_tracked(static_cast<std::uint32_t>(sources.detector.pairs_tracked()));
+  status.set_pairs_tracked(
+      static_cast<std::uint32_t>(sources.detectors.contacts().pairs_tracked()));
   AddSimulators(sources.world, &status);
   AddIntake(sources, &status);
   AddShapes(sources.shapes.counters(), &status);
   AddDetection(sources, &status);
+  AddLevels(sources.detectors, &status);
   for (const v1::Counter& counter : sources.bus.network_counters())
     *status.add_counters() = counter;
-  const detection::Detector::Profile profile = sources.detector.profile();
+  const detection::Detector::Profile profile = sources.detectors.contacts().profile();
   status.set_broad_phase(profile.broad_phase.substr(0, wire::kStatusBroadPhaseMax));
   status.set_broad_phase_why(profile.why.substr(0, wire::kStatusBroadPhaseWhyMax));
   for (const std::string& text : profile.left_out) {

@@ -33,8 +33,8 @@ std::string StepText(const ClockStep& step);
 struct StatusSources {
   const v1::Config& config;
   const World& world;
-  const detection::Detector& detector;
-  const detection::DetectorCounters& counted;  ///< Of the detectors of all epochs.
+  const Detectors& detectors;
+  const detection::DetectorCounters& counted;  ///< Of the contacts of all epochs.
   const Intake& intake;
   const ShapeStore& shapes;
   const Rejections& rejections;

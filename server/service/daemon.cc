@@ -13,6 +13,8 @@
 #include "server/bus/full_batches.h"
 #include "server/claim/heard_service.h"
 #include "server/config/config.h"
+#include "server/detectors/detector_options.h"
+#include "server/detectors/detectors.h"
 #include "server/intake/followed_rounds.h"
 #include "server/intake/intake.h"
 #include "server/process/logging.h"
@@ -20,7 +22,7 @@
 #include "server/publish/reports.h"
 #include "server/publish/status.h"
 #include "server/recording/step_recorder.h"
-#include "server/service/detector_options.h"
+#include "server/service/level_step.h"
 #include "server/service/operator_commands.h"
 #include "server/service/roster_journal.h"
 #include "server/service/service_report.h"
@@ -48,9 +50,9 @@ class Daemon::Implementation {
                            : std::make_unique<InlineShapeBuilder>(BuildOptionsOf(config_))),
         world_(config_, parts.claim.roster),
         shapes_(config_, shape_builder_.get(), &world_.quotas()),
-        detector_(DetectorOptionsOf(config_)),
+        detectors_(config_),
         rejections_(config_.rejections_per_second_max(), &world_),
-        intake_(config_, claim_.instance(), &world_, &detector_, &rejections_, &shapes_),
+        intake_(config_, claim_.instance(), &world_, &detectors_, &rejections_, &shapes_),
         operators_(&world_, &intake_),
         publisher_(config_, &claim_, &bus_),
         schedule_(ToNanoseconds(config_.status_period_s())) {
@@ -149,7 +151,7 @@ class Daemon::Implementation {
     }
     std::int64_t wait = due - world_.monotonic_ns();
     if (!world_.simulated()) {
-      const int slices = detector_.pairs_waiting() > 0 ? kSlicesPerResolution : 1;
+      const int slices = detectors_.pairs_waiting() > 0 ? kSlicesPerResolution : 1;
       wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()) / slices);
     }
     if (const auto standstill = claim_.standstill_ns()) wait = std::min(wait, *standstill / 2);
@@ -204,7 +206,7 @@ class Daemon::Implementation {
     for (const EndedRun& ended : EndedRunsIn(heard.ended_runs())) intake_.FollowEnd(ended);
     const bool is_past = world_.simulated() && heard.epoch() < world_.epoch();
     if (claim_.phase() != ClaimPhase::kStandby || is_past || world_.IsWaking()) return;
-    if (services_.HearProgress(heard, detector_.agents(), world_.newest())) {
+    if (services_.HearProgress(heard, detectors_.contacts().agents(), world_.newest())) {
       publisher_.ForgetUndecided(Instant::FromNanoseconds(heard.now_ns()));
       world_.ForgetLowerings();
       schedule_.Hasten();
@@ -279,8 +281,7 @@ class Daemon::Implementation {
     Log(spdlog::level::info, "epoch over",
         fmt::format("epoch {} ends at {} s: {}", world_.epoch(),
                     1e-9 * static_cast<double>(world_.now().nanoseconds()), why));
-    past_ += detector_.counters();
-    detector_ = detection::Detector(DetectorOptionsOf(config_));
+    detectors_.BeginEpoch();
     advanced_to_.reset();
     rounds_.Clear();
     world_.BeginEpoch();
@@ -327,32 +328,33 @@ class Daemon::Implementation {
     return intake_.AwaitsShapes() ? std::nullopt : world_.NextNow();
   }
 
-  /// Advances the detector to the world's time and publishes what it found. With a simulated clock
-  /// only inputs and releases change anything.
+  /// Advances the detectors to the world's time and publishes what they found: contacts first, then
+  /// levels. With a simulated clock only inputs and releases change anything.
   void Detect(bool inputs) {
     if (!world_.started()) return;
     if (world_.simulated() && !inputs && world_.now() == advanced_to_) return;
     advanced_to_ = world_.now();
-    detector_.Advance(world_.now(), [this] {
+    const auto progress = [this] {
       if (!progress_ || !progress_()) return;
       SendStatus();
       bus_.Flush();
-    });
-    if (shares_.Take(detector_.owner_work(), world_)) schedule_.Hasten();
+    };
+    detection::Detector& contacts = detectors_.contacts();
+    contacts.Advance(world_.now(), progress);
+    if (shares_.Take(contacts.owner_work(), world_)) schedule_.Hasten();
     shares_.Write(world_.monotonic_ns());
-    publisher_.PublishEvents(detector_.events(), world_);
-    for (const detection::AgentClearance& clearance : detector_.TakeChangedClearances()) {
-      world_.SetClearance(clearance);
-    }
+    publisher_.PublishEvents(contacts.events(), world_);
+    for (const auto& clearance : contacts.TakeChangedClearances()) world_.SetClearance(clearance);
+    StepLevels(progress, &detectors_, &world_, &publisher_);
     world_.UpdateGrants();
   }
 
   /// Publishes the rest of what a step has found; the events have left before its grants.
   void PublishAnswers() {
     if (publisher_.EarliestIsDue(world_)) {
-      publisher_.PublishEarliest(
-          advanced_to_ ? detector_.Earliest(kEarliestQueriesMax) : detection::EarliestAnswer(),
-          world_);
+      publisher_.PublishEarliest(advanced_to_ ? detectors_.contacts().Earliest(kEarliestQueriesMax)
+                                              : detection::EarliestAnswer(),
+                                 world_);
     }
     publisher_.PublishClearances(&world_);
     if (world_.AcknowledgeRevisions()) publisher_.PublishClearances(&world_);
@@ -364,12 +366,11 @@ class Daemon::Implementation {
   }
 
   void SendStatus() {
-    detection::DetectorCounters counted = past_;
-    counted += detector_.counters();
+    const detection::DetectorCounters counted = detectors_.counted();
     publisher_.PublishStatus(
         MakeStatus({.config = config_,
                     .world = world_,
-                    .detector = detector_,
+                    .detectors = detectors_,
                     .counted = counted,
                     .intake = intake_,
                     .shapes = shapes_,
@@ -409,8 +410,7 @@ class Daemon::Implementation {
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   World world_;
   ShapeStore shapes_;
-  detection::Detector detector_;
-  detection::DetectorCounters past_;  ///< Of the epochs that are over.
+  Detectors detectors_;
   Rejections rejections_;
   Intake intake_;
   FollowedRounds rounds_{&world_, &intake_};

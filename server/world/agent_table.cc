@@ -129,6 +129,12 @@ void AgentTable::SetClearance(const detection::AgentClearance& clearance) {
   clearances_.Set(clearance.agent.slot, clearance);
 }
 
+void AgentTable::SetClearanceOfLevel(std::size_t level,
+                                     const detection::AgentClearance& clearance) {
+  if (Find(clearance.agent.slot, clearance.agent.generation) == nullptr) return;
+  clearances_.SetOfLevel(clearance.agent.slot, level, clearance);
+}
+
 void AgentTable::Remove(std::uint32_t slot_index) {
   Slot& slot = slots_[slot_index];
   CORE_CHECK(slot.agent.has_value(), "an agent is in the slot", slot_index);

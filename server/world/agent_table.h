@@ -152,6 +152,7 @@ class AgentTable {
   /// The detector gives an admitted agent a new clearance. One for an agent that is not there under
   /// this generation is ignored.
   void SetClearance(const detection::AgentClearance& clearance);
+  void SetClearanceOfLevel(std::size_t level, const detection::AgentClearance& clearance);
 
   /// Removes the agent in `slot`, its clearance, and a state of the same generation that waits.
   /// Requires an agent.

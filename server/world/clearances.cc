@@ -33,8 +33,25 @@ void Clearances::Set(std::uint32_t slot, const detection::AgentClearance& cleara
   lowerings_.Take(slot, clearance);
 }
 
+void Clearances::SetOfLevel(std::uint32_t slot, std::size_t level,
+                            const detection::AgentClearance& clearance) {
+  const auto [known, is_new] = of_levels_.try_emplace({slot, level}, clearance);
+  if (!is_new && OnlyRises(known->second, clearance)) {
+    risen_.try_emplace(slot / kSlotsPerChunk);
+  } else {
+    MarkChanged(slot);
+  }
+  known->second = clearance;
+}
+
+const detection::AgentClearance* Clearances::OfLevel(std::uint32_t slot, std::size_t level) const {
+  const auto found = of_levels_.find({slot, level});
+  return found != of_levels_.end() ? &found->second : nullptr;
+}
+
 void Clearances::Forget(std::uint32_t slot) {
   clearances_.erase(slot);
+  of_levels_.erase(of_levels_.lower_bound({slot, 0}), of_levels_.lower_bound({slot + 1, 0}));
   ends_.Remove(SlotIndex(slot));
   lowerings_.Forget(slot);
   MarkChanged(slot);

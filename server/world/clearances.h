@@ -1,10 +1,12 @@
 // The clearances of the agents of one simulator, and which of them must be published again.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "collision_core/base/event_queue.h"
 #include "collision_core/detection/detector.h"
@@ -43,6 +45,14 @@ class Clearances {
   /// Replaces the clearance of the agent in `slot`, and marks its chunk, which may wait if the
   /// clearance only rises.
   void Set(std::uint32_t slot, const detection::AgentClearance& clearance);
+
+  /// Likewise until when the agent crosses no level of this index. It is not published: only when
+  /// a state of the agent is wanted depends on it.
+  void SetOfLevel(std::uint32_t slot, std::size_t level,
+                  const detection::AgentClearance& clearance);
+
+  /// Null: there is none.
+  const detection::AgentClearance* OfLevel(std::uint32_t slot, std::size_t level) const;
 
   /// The agent in `slot` is gone, with its clearance; marks its chunk.
   void Forget(std::uint32_t slot);
@@ -91,6 +101,8 @@ class Clearances {
   }
 
   std::map<std::uint32_t, detection::AgentClearance> clearances_;
+  /// By slot and level.
+  std::map<std::pair<std::uint32_t, std::size_t>, detection::AgentClearance> of_levels_;
   EventQueue<SlotIndex> ends_;  // EndOf() of each clearance
   std::set<std::uint32_t> changed_;
   std::map<std::uint32_t, Risen> risen_;  ///< The chunks that may wait.

@@ -381,6 +381,12 @@ void World::SetClearance(const detection::AgentClearance& clearance) {
   simulator->agents().SetClearance(clearance);
 }
 
+void World::SetClearanceOfLevel(std::size_t level, const detection::AgentClearance& clearance) {
+  Simulator* simulator = Find(clearance.agent.simulator);
+  if (simulator == nullptr || simulator->run() != clearance.agent.run) return;
+  simulator->agents().SetClearanceOfLevel(level, clearance);
+}
+
 void World::UpdateGrants() {
   departed_.ForgetUntil(now_);
   if (!simulated_ || !started_) return;

@@ -258,6 +258,8 @@ class World {
 
   /// The detector gives an agent a new clearance. Ignored if the agent is not there any more.
   void SetClearance(const detection::AgentClearance& clearance);
+  /// Likewise of a level: only when states are wanted depends on it.
+  void SetClearanceOfLevel(std::size_t level, const detection::AgentClearance& clearance);
 
   /// After all events up to now. Grants the time described above, marks the clearance samples where
   /// it has grown, and forgets the names of agents that have left by now.

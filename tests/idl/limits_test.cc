@@ -25,6 +25,7 @@ TEST(Limits, LengthsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("AgentDescription", "simulator_name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("AgentDescription", "agent_name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("AgentDescription", "class_name"), wire::kClassNameMax);
+  EXPECT_EQ(BoundOf("CollisionEvent", "level"), wire::kLevelNameMax);
   EXPECT_EQ(BoundOf("AgentDescription", "assembly"), wire::kNameMax);
   EXPECT_EQ(BoundOf("SimulatorClock", "simulator_name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("SimulatorStatus", "name"), wire::kNameMax);

@@ -229,6 +229,7 @@ Event FromMessage(const v1::CollisionEvent& message) {
   if (message.has_expected()) event.expected = ExpectationOf(message.expected());
   if (message.has_closest()) event.closest = ClosestOf(message.closest());
   event.level = message.level();
+  event.tree_level = message.tree_level();
   event.work_units = message.work_units();
   event.limited_by = static_cast<EventLimit>(message.limited_by());
   for (const v1::KeyValue& extension : message.extensions()) {

@@ -7,7 +7,8 @@
 namespace collision::client {
 
 void HeldForecasts::Hold(const v1::CollisionEvent& event) {
-  v1::CollisionEvent& held = by_pair_[{FromMessage(event.lower()), FromMessage(event.higher())}];
+  v1::CollisionEvent& held =
+      by_pair_[{FromMessage(event.lower()), FromMessage(event.higher()), event.level()}];
   if (event.stamp().sequence() > held.stamp().sequence()) held = event;
 }
 

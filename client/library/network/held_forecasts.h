@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <utility>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "client/api/types.h"
@@ -14,7 +15,7 @@ namespace collision::client {
 
 /// Lock-step: which revisions of a forecast arrive, and when, is a matter of the network: only the
 /// newest of a pair is sure to come. So forecasts are told when the simulator takes a step or
-/// polls, of each pair the newest. One thread; depends on nothing but the calls.
+/// polls, of each pair and level the newest. One thread; depends on nothing but the calls.
 class HeldForecasts {
  public:
   /// A forecast about anybody's agents has come.
@@ -34,7 +35,8 @@ class HeldForecasts {
 
  private:
   std::uint64_t newest_ = 0;
-  std::map<std::pair<AgentId, AgentId>, v1::CollisionEvent> by_pair_;
+  /// By pair and level.
+  std::map<std::tuple<AgentId, AgentId, std::string>, v1::CollisionEvent> by_pair_;
 };
 
 }  // namespace collision::client

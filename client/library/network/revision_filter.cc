@@ -13,7 +13,7 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
     return false;
   // What has come of an earlier epoch is history.
   if (IsPast(event.stamp())) return is_contact;
-  const Pair pair{Id(event.lower()), Id(event.higher())};
+  const Pair pair{Id(event.lower()), Id(event.higher()), event.level()};
   Known* known = known_.Find(pair);
   const Revision revision{
       event.stamp().service_id(),  event.contact(),          event.revision(), event.status(),

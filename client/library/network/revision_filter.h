@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <tuple>
-#include <utility>
 
 #include "client/library/network/contact_sequence.h"
 #include "collision_core/base/recent_map.h"
@@ -16,10 +16,11 @@ namespace collision::client {
 bool IsForecast(v1::EventStatus status);
 
 /// Makes one stream of the two topics: each revision once, no forecast after a later revision of
-/// its pair, every contact. A service counts revisions from 1 for each contact. One that takes over
-/// goes on with the contacts of the one before it and tells once more what stands: of the same
-/// contact the same status and begin, a forecast that does not begin earlier. In another epoch it
-/// counts all anew; one that was started again may count epochs anew, too.
+/// its pair, every contact. Each level has contacts and forecasts of its own. A service counts
+/// revisions from 1 for each contact. One that takes over goes on with the contacts of the one
+/// before it and tells once more what stands: of the same contact the same status and begin, a
+/// forecast that does not begin earlier. In another epoch it counts all anew; one that was started
+/// again may count epochs anew, too.
 class RevisionFilter {
  public:
   /// Pairs that are remembered; beyond twice as many those heard of longest ago are forgotten, and
@@ -36,7 +37,7 @@ class RevisionFilter {
 
  private:
   using Agent = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>;
-  using Pair = std::pair<Agent, Agent>;
+  using Pair = std::tuple<Agent, Agent, std::string>;  ///< The last: the level.
 
   /// What an event says, as far as it is compared.
   struct Revision {

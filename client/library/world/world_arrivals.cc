@@ -254,8 +254,13 @@ void World::Implementation::Handle(const v1::CollisionEvent& event) {
   } else if (!own) {
     if (event.contacts_sequence() > 0) contacts_.Take(event.contacts_sequence());
   } else if (filter_.IsNew(event, &contacts_)) {
-    events_.push_back(FromMessage(event));
+    Keep(event);
   }
+}
+
+void World::Implementation::Keep(const v1::CollisionEvent& event) {
+  const bool is_wanted = event.level().empty() || std::ranges::count(levels_, event.level()) > 0;
+  if (is_wanted) events_.push_back(FromMessage(event));
 }
 
 void World::Implementation::Handle(const v1::SimulatorReport& report, Arrival::Time now) {
@@ -304,7 +309,7 @@ void World::Implementation::Deliver() {
 
 void World::Implementation::DeliverAll() {
   for (const v1::CollisionEvent& event : forecasts_.Take()) {
-    if (filter_.IsNew(event, &contacts_)) events_.push_back(FromMessage(event));
+    if (filter_.IsNew(event, &contacts_)) Keep(event);
   }
   DropOldEvents();
   Deliver();

@@ -176,6 +176,8 @@ class World::Implementation {
   void NoteSkew(const v1::AgentClearance& clearance);
 
   /// Runs the callbacks for what has been received, or for that and the forecasts that are held.
+  /// Keeps the event for OnEvent(), unless it is of a level that is not wanted.
+  void Keep(const v1::CollisionEvent& event);
   void Deliver();
   void DeliverAll();
   template <typename Callback, typename... Values>
@@ -186,6 +188,7 @@ class World::Implementation {
   std::uint32_t run_;
   const bool lock_step_;
   const OnLeave on_leave_;
+  const std::vector<std::string> levels_;  ///< As in WorldOptions.
   std::unique_ptr<Transport> transport_;
   Arrival arrival_;
   AgentTable agents_;

@@ -105,6 +105,7 @@ void Observer::Handle(const v1::Rejection& rejection) {
 void Observer::Handle(const v1::CollisionEvent& event) {
   SeeTime(event.now_ns());
   observations_.events.push_back(event);
+  if (!event.level().empty()) return pending_names_.Add(FromMessage(event), steady_clock::now());
   const ContactKey key{event.lower().SerializeAsString(), event.higher().SerializeAsString(),
                        event.contact()};
   const auto [status, is_new] = statuses_.try_emplace(key, event.status());

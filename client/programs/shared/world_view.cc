@@ -290,11 +290,13 @@ std::vector<v1::CollisionEvent> WorldView::TakeEvents() {
 
 std::vector<v1::CollisionEvent> WorldView::TakeNewestRevisions() {
   std::vector<v1::CollisionEvent> events = TakeEvents();
-  std::set<std::tuple<AgentId, AgentId, std::uint32_t>> seen;
+  std::set<std::tuple<AgentId, AgentId, std::string, std::uint32_t>> seen;
   std::vector<v1::CollisionEvent> newest;
   for (auto event = events.rbegin(); event != events.rend(); ++event) {
     const AgentId lower = FromMessage(event->lower()), higher = FromMessage(event->higher());
-    if (seen.emplace(lower, higher, event->contact()).second) newest.push_back(std::move(*event));
+    if (seen.emplace(lower, higher, event->level(), event->contact()).second) {
+      newest.push_back(std::move(*event));
+    }
   }
   std::reverse(newest.begin(), newest.end());
   return newest;

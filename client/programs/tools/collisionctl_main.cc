@@ -52,7 +52,7 @@ struct Options {
   std::string pair[2];  ///< Of why.
   bool explain = false;
   bool expected = false;
-  std::vector<std::string> agents, statuses;
+  std::vector<std::string> agents, statuses, levels;
   std::optional<double> within_s, since_s;
   std::optional<std::size_t> top;
   double period_s = 1;
@@ -106,6 +106,7 @@ std::optional<std::int64_t> Nanoseconds(const std::optional<double>& seconds) {
 
 EventFilter FilterOf(const Options& options) {
   EventFilter filter{.agents = options.agents,
+                     .levels = options.levels,
                      .within_ns = Nanoseconds(options.within_s),
                      .since_ns = Nanoseconds(options.since_s),
                      .top = options.top,
@@ -270,6 +271,10 @@ void AddEvents(CLI::App* app, Options* options) {
   events->add_flag("--expected", options->expected,
                    "Of possible events only those in which the two touch if both keep the motion "
                    "that they told");
+  events
+      ->add_option("--level", options->levels,
+                   "Only events of these levels of the service; contact: of contact itself")
+      ->delimiter(',');
   events
       ->add_option("--within", options->within_s,
                    "Only what begins at most so many seconds ahead of now, 0 to 1e9")

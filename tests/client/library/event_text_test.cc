@@ -57,7 +57,7 @@ Event OfShapes() {
   event.proximity->normal->direction[0] = 0.6;
   event.proximity->normal->direction[1] = -0.8;
   event.proximity->normal->error_rad = 0.0873;
-  event.level = 6;
+  event.tree_level = 6;
   event.work_units = 1840;
   event.limited_by = EventLimit::kBudget;
   return event;
@@ -72,7 +72,7 @@ std::string FromGap(const Event& event) {
 TEST(EventText, AContactOfShapesHasPlaceDepthAndLimit) {
   EXPECT_EQ(FromGap(OfShapes()),
             "  gap [-3, -0.123] m  depth ≥ 0.234 m  at (1.25, -1234.57, 0.00) ± 0.169 m  "
-            "normal (0.600, -0.800, 0.000) ± 5.06°  level 6, 1840 units, limited by budget");
+            "normal (0.600, -0.800, 0.000) ± 5.06°  tree level 6, 1840 units, limited by budget");
 }
 
 TEST(EventText, AContactOfShapesLeavesOutWhatIsUnknown) {
@@ -83,13 +83,13 @@ TEST(EventText, AContactOfShapesLeavesOutWhatIsUnknown) {
   event.limited_by = EventLimit::kNone;
   EXPECT_EQ(FromGap(event),
             "  gap [-3, -0.123] m  at (1.250000000, -1234.567890000, 0.000000000) ± 8.67e-10 m  "
-            "level 6, 1840 units");
+            "tree level 6, 1840 units");
   event.proximity->point_error_m = 1e6;
   EXPECT_NE(FromGap(event).find("  at (1, -1235, 0) ± 1.01e+06 m"), std::string::npos)
       << FromGap(event);
   event.proximity->separation_upper_m = 0.5;
   event.limited_by = EventLimit::kGeometry;
-  EXPECT_EQ(FromGap(event), "  gap [-3, 0.5] m  level 6, 1840 units, limited by geometry");
+  EXPECT_EQ(FromGap(event), "  gap [-3, 0.5] m  tree level 6, 1840 units, limited by geometry");
   event.limited_by = EventLimit::kMotion;
   EXPECT_NE(FromGap(event).find(", limited by motion"), std::string::npos);
 }
@@ -99,7 +99,7 @@ TEST(EventText, AContactNamesItsPartsAndItsSpeed) {
   event.proximity->higher_part = 17;
   event.proximity->relative_velocity = {{3, 0, -4}, 0.25};
   const std::string line = FromGap(event);
-  EXPECT_NE(line.find("  parts ball × 17  level 6"), std::string::npos) << line;
+  EXPECT_NE(line.find("  parts ball × 17  tree level 6"), std::string::npos) << line;
   EXPECT_TRUE(line.ends_with("  relative speed [4.75, 5.25] m/s")) << line;
 }
 
@@ -140,7 +140,7 @@ TEST(EventText, AnEventThatTheServiceEndedSaysWhy) {
 // The surface of a ball is known: there is nothing to search.
 TEST(EventText, BallsHaveNoLevel) {
   Event event = OfShapes();
-  event.level = 0;
+  event.tree_level = 0;
   EXPECT_EQ(FromGap(event), "  gap ≤ -0.123 m");
 }
 

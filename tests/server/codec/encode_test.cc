@@ -82,7 +82,7 @@ TEST(Encode, AnEventKeepsItsGeometryUnrounded) {
   EXPECT_EQ(wire.proximity().normal().direction().y(), 0.48);
   EXPECT_EQ(wire.proximity().normal().direction().z(), 0.8);
   EXPECT_EQ(wire.proximity().normal().error_rad(), 0.02);
-  EXPECT_EQ(wire.level(), 5u);
+  EXPECT_EQ(wire.tree_level(), 5u);
   EXPECT_EQ(wire.work_units(), 0xf000'0000'0000'0001);
   EXPECT_EQ(wire.limited_by(), v1::LIMIT_GEOMETRY);
   EXPECT_TRUE(wire.proximity().has_lower_part());

@@ -76,12 +76,13 @@ class AgentRegistryTest : public testing::Test {
 
   const v1::Config config;
   World world{config};
-  detection::Detector detector{detection::DetectorOptions{}};
+  Detectors detectors{config};
+  const detection::Detector& detector = detectors.contacts();
   Rejections rejections{100, &world};
   InlineShapeBuilder builder{BuildOptions{.triangles_max = 1000}};
   ShapeStore store{config, &builder, &world.quotas()};
-  AgentShapes shapes{config, &world, &detector, &rejections, &store};
-  AgentRegistry registry{config, &world, &detector, &rejections, &shapes};
+  AgentShapes shapes{config, &world, &detectors, &rejections, &store};
+  AgentRegistry registry{config, &world, &detectors, &rejections, &shapes};
   Simulator* alpha = nullptr;
 };
 

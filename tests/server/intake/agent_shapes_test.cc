@@ -38,7 +38,7 @@ class AgentShapesTest : public testing::Test {
     Agent* agent = alpha->agents().Add(slot, {1, 1, declaration});
     motion::MotionState state;
     state.stamp = Instant::FromNanoseconds(0);
-    EXPECT_TRUE(detector.Admit(alpha->IdOf(slot, 1), declaration, state, state.stamp));
+    EXPECT_TRUE(detectors.Admit(alpha->IdOf(slot, 1), declaration, state, state.stamp));
     alpha->agents().Admit(slot, state.stamp, 1);
     return agent;
   }
@@ -70,11 +70,12 @@ class AgentShapesTest : public testing::Test {
 
   const v1::Config config = MakeConfig();
   World world{config};
-  detection::Detector detector{detection::DetectorOptions{}};
+  Detectors detectors{config};
+  const detection::Detector& detector = detectors.contacts();
   Rejections rejections{100, &world};
   InlineShapeBuilder builder{BuildOptions{.triangles_max = 10000}};
   ShapeStore store{config, &builder, &world.quotas()};
-  AgentShapes shapes{config, &world, &detector, &rejections, &store};
+  AgentShapes shapes{config, &world, &detectors, &rejections, &store};
   Simulator* alpha = nullptr;
   std::string detail;  // of the last rejection
   const std::string bytes = EncodeShape(Cube(1, UnusedFor(2)));

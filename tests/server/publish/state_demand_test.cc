@@ -20,7 +20,7 @@ StateDemand Demand() {
   v1::Config config;
   config.set_announce_within_s(2);
   config.set_temporal_resolution_s(0.1);
-  return StateDemand(config);
+  return StateDemand(config, config.announce_within_s());
 }
 
 double Wanted(double clear_until, double stamp, double now) {

@@ -52,7 +52,7 @@ void SpaceshipScreen::Update(const OwnShip& own) {
 void SpaceshipScreen::TakeEvents(const OwnShip& own) {
   const auto now = steady_clock::now();
   for (const v1::CollisionEvent& message : view_.TakeEvents()) {
-    pending_names_.Add(FromMessage(message), now);
+    if (message.level().empty()) pending_names_.Add(FromMessage(message), now);
   }
   const auto named = [this](const AgentId& id) { return view_.IsNamed(id); };
   for (const Event& event : pending_names_.Take(named, now)) {

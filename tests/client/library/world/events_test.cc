@@ -65,7 +65,7 @@ TEST_F(EventsTest, AllFieldsArrive) {
   event.mutable_proximity()->set_point_error_m(10);
   event.mutable_proximity()->mutable_normal()->mutable_direction()->set_z(1);
   event.mutable_proximity()->mutable_normal()->set_error_rad(11);
-  event.set_level(12);
+  event.set_tree_level(12);
   event.set_work_units(13);
   event.set_limited_by(v1::LIMIT_GEOMETRY);
   event.mutable_lower_label()->set_simulator_name(kSimulator);
@@ -104,7 +104,7 @@ TEST_F(EventsTest, AllFieldsArrive) {
   EXPECT_EQ(received.proximity->point_error_m, 10);
   EXPECT_EQ(received.proximity->normal->direction, (Vector3{0, 0, 1}));
   EXPECT_EQ(received.proximity->normal->error_rad, 11);
-  EXPECT_EQ(received.level, 12u);
+  EXPECT_EQ(received.tree_level, 12u);
   EXPECT_EQ(received.work_units, 13u);
   EXPECT_EQ(received.limited_by, EventLimit::kGeometry);
   EXPECT_EQ(received.because, "silent");

@@ -117,7 +117,12 @@ bool EventSelection::Fits(const v1::CollisionEvent& event, const WorldView& view
   const bool any = statuses.empty();
   if (filter_.expected && status == EventStatus::kPossible && !IsExpected(event)) return false;
   if (!any && std::find(statuses.begin(), statuses.end(), status) == statuses.end()) return false;
-  return FitsInTime(event, view) && IsOfAgents(event, view);
+  return IsOfLevels(event) && FitsInTime(event, view) && IsOfAgents(event, view);
+}
+
+bool EventSelection::IsOfLevels(const v1::CollisionEvent& event) const {
+  const std::string level = event.level().empty() ? kContactLevel : event.level();
+  return filter_.levels.empty() || std::ranges::count(filter_.levels, level) > 0;
 }
 
 bool EventSelection::FitsInTime(const v1::CollisionEvent& event, const WorldView& view) const {
@@ -137,7 +142,7 @@ bool EventSelection::IsOfAgents(const v1::CollisionEvent& event, const WorldView
 }
 
 EventSelection::Key EventSelection::KeyOf(const v1::CollisionEvent& event) {
-  return {FromMessage(event.lower()), FromMessage(event.higher()), event.contact()};
+  return {FromMessage(event.lower()), FromMessage(event.higher()), event.level(), event.contact()};
 }
 
 }  // namespace collision::client

@@ -13,11 +13,15 @@
 
 namespace collision::client {
 
+/// In place of the name of a level: contact itself.
+inline constexpr char kContactLevel[] = "contact";
+
 /// All of what is set must hold.
 struct EventFilter {
   /// An event of one of these agents, "agent" or "simulator:agent"; empty: of any.
   std::vector<std::string> agents = {};
   std::vector<EventStatus> statuses = {};      ///< Empty: any.
+  std::vector<std::string> levels = {};        ///< Names, or kContactLevel; empty: any.
   std::optional<std::int64_t> within_ns = {};  ///< It begins at most this far ahead of now.
   std::optional<std::int64_t> since_ns = {};   ///< This revision is at most so old.
   std::optional<std::size_t> top = {};         ///< It is one of so many that are nearest in time.
@@ -66,10 +70,12 @@ class EventSelection {
   bool Takes(const v1::CollisionEvent& event, const WorldView& view);
 
  private:
-  using Key = std::tuple<AgentId, AgentId, std::uint32_t>;  ///< Lower, higher, contact.
+  /// Lower, higher, level, contact.
+  using Key = std::tuple<AgentId, AgentId, std::string, std::uint32_t>;
 
   static Key KeyOf(const v1::CollisionEvent& event);
   bool Fits(const v1::CollisionEvent& event, const WorldView& view) const;
+  bool IsOfLevels(const v1::CollisionEvent& event) const;
   bool FitsInTime(const v1::CollisionEvent& event, const WorldView& view) const;
   bool IsOfAgents(const v1::CollisionEvent& event, const WorldView& view) const;
   bool IsNearest(const v1::CollisionEvent& event, std::int64_t now_ns);

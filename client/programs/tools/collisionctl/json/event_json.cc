@@ -94,6 +94,7 @@ void AddEvent(const v1::CollisionEvent& message, const WorldView& view, JsonObje
       .Text("status", Name(event.status))
       .Add("lower", AgentReference(event.lower, message.lower_label(), view))
       .Add("higher", AgentReference(event.higher, message.higher_label(), view))
+      .TextOrNull("level", event.level)
       .Count("contact", event.contact)
       .Count("revision", event.revision);
   if (event.contacts_sequence > 0) {
@@ -111,7 +112,7 @@ void AddEvent(const v1::CollisionEvent& message, const WorldView& view, JsonObje
       .Add("higher_state", StateJson(event.higher_state))
       .Add("expected", ExpectedJson(event.expected))
       .Add("closest", ClosestJson(event.closest))
-      .Count("level", event.level)
+      .Count("tree_level", event.tree_level)
       .Count("work_units", event.work_units)
       .Text("limited_by", Name(event.limited_by))
       .TextOrNull("because", event.because)

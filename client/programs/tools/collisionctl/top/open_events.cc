@@ -16,6 +16,7 @@ bool IsOpen(const v1::CollisionEvent& event) {
 
 void OpenEvents::Add(const std::vector<v1::CollisionEvent>& revisions) {
   for (const v1::CollisionEvent& event : revisions) {
+    if (!event.level().empty()) continue;
     const Key key{FromMessage(event.lower()), FromMessage(event.higher()), event.contact()};
     if (!IsOpen(event)) {
       events_.erase(key);

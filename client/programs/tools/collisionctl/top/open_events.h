@@ -11,7 +11,8 @@
 
 namespace collision::client {
 
-/// Keeps the newest revision of each event that is possible or confirmed. One thread.
+/// Keeps the newest revision of each event that is possible or confirmed, but for those of levels.
+/// One thread.
 class OpenEvents {
  public:
   /// Four times as many pairs as a service tracks by default; beyond it no further one is kept.

@@ -19,7 +19,7 @@ std::optional<v1::CollisionEvent> NewestOf(const AgentId& a, const AgentId& b, W
   for (const v1::CollisionEvent& event : view->TakeEvents()) {
     const AgentId lower = FromMessage(event.lower()), higher = FromMessage(event.higher());
     const bool is_theirs = (lower == a && higher == b) || (lower == b && higher == a);
-    if (is_theirs) newest = event;
+    if (is_theirs && event.level().empty()) newest = event;
   }
   return newest;
 }

@@ -1,4 +1,4 @@
-#include "server/service/detector_options.h"
+#include "server/detectors/detector_options.h"
 
 #include <algorithm>
 
@@ -19,10 +19,8 @@ broad_phase::BroadPhaseMethod MethodOf(v1::Config::BroadPhase method) {
   }
 }
 
-}  // namespace
-
-detection::DetectorOptions DetectorOptionsOf(const v1::Config& config) {
-  const std::uint64_t per_step = WorkUnitsPerStep(config);
+/// With `per_step` work units in a step; 0: no limit.
+detection::DetectorOptions OptionsOf(const v1::Config& config, std::uint64_t per_step) {
   const bool sliced = config.clock().kind() == v1::Clock::REAL_TIME && per_step > 0;
   return {.temporal_resolution = config.temporal_resolution_s(),
           .announce_within = config.announce_within_s(),
@@ -36,6 +34,28 @@ detection::DetectorOptions DetectorOptionsOf(const v1::Config& config) {
           .work_units_per_slice =
               sliced ? std::max<std::uint64_t>(1, per_step / kSlicesPerResolution) : 0,
           .broad_phase = MethodOf(config.broad_phase())};
+}
+
+/// Of the budget of a step, the part of all levels.
+std::uint64_t OfLevels(std::uint64_t per_step) {
+  return static_cast<std::uint64_t>(kLevelsShare * static_cast<double>(per_step));
+}
+
+}  // namespace
+
+detection::DetectorOptions DetectorOptionsOf(const v1::Config& config,
+                                             std::size_t level_detectors) {
+  const std::uint64_t per_step = WorkUnitsPerStep(config);
+  return OptionsOf(config, level_detectors > 0 ? per_step - OfLevels(per_step) : per_step);
+}
+
+detection::DetectorOptions LevelDetectorOptions(const v1::Config& config,
+                                                std::size_t level_detectors, double look_ahead) {
+  const std::uint64_t per_step = WorkUnitsPerStep(config);
+  const std::uint64_t share = std::max<std::uint64_t>(1, OfLevels(per_step) / level_detectors);
+  detection::DetectorOptions options = OptionsOf(config, per_step > 0 ? share : 0);
+  options.announce_within = look_ahead;
+  return options;
 }
 
 }  // namespace collision::server

@@ -1,0 +1,69 @@
+// Every detector of the service: that of contacts, and those of the levels.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "collision_core/detection/detector.h"
+#include "server/detectors/level_detector.h"
+
+namespace collision::server {
+
+/// Gives each input to the detector of contacts and to those of the levels, so that all have the
+/// same agents, states and times. What an input does is decided by the first alone: clearances,
+/// grants, outcomes. Without levels there is nothing else.
+///
+/// The inputs are those of detection::Detector, and so are the rules. One thread.
+class Detectors {
+ public:
+  /// Requires a complete and valid configuration, which outlives this.
+  explicit Detectors(const v1::Config& config);
+
+  bool Admit(const detection::AgentId& id, const detection::AgentDeclaration& declaration,
+             const motion::MotionState& state, Instant effective_from);
+  detection::UpdateOutcome Update(const detection::AgentId& id, const motion::MotionState& state,
+                                  Instant effective_from);
+  bool Redeclare(const detection::AgentId& id, const detection::AgentDeclaration& declaration,
+                 Instant effective_from);
+  bool Remove(const detection::AgentId& id);
+  void SetHeardUntil(const detection::OwnerId& owner, Instant until);
+  void SetPairShare(const detection::OwnerId& owner, const Share& share);
+  void VoidOwner(const detection::OwnerId& owner, Instant from);
+
+  /// Brings the levels to `now`. That of contacts comes first and is advanced by itself, so that
+  /// what it finds leaves before the levels are looked at.
+  void AdvanceLevels(Instant now, const std::function<void()>& progress);
+
+  /// All of them begin anew, without agents.
+  void BeginEpoch();
+
+  detection::Detector& contacts() { return contacts_; }
+  const detection::Detector& contacts() const { return contacts_; }
+
+  /// In the order of the configuration.
+  std::vector<LevelDetector>& levels() { return levels_; }
+  const std::vector<LevelDetector>& levels() const { return levels_; }
+
+  /// Pairs of all detectors that wait for their evaluation.
+  std::size_t pairs_waiting() const;
+
+  /// What that of contacts has done in all epochs.
+  detection::DetectorCounters counted() const;
+
+ private:
+  template <typename Call>
+  void EachOfLevels(const Call& call) {
+    for (LevelDetector& level : levels_) level.Each(call);
+  }
+  void AddLevels();
+
+  const v1::Config& config_;
+  detection::DetectorCounters past_;  ///< Of the epochs that are over.
+  std::vector<Level> configured_;
+  std::size_t level_detectors_ = 0;
+  detection::Detector contacts_;
+  std::vector<LevelDetector> levels_;
+};
+
+}  // namespace collision::server
