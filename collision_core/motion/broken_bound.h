@@ -7,7 +7,8 @@ namespace collision::motion {
 
 /// What an owner declares about a motion and a breach can break.
 enum class DeclaredBound {
-  kAccelerationMax,         ///< D [m/s²], with the jerk J as declared.
+  /// D [m/s²]: of |x″ − a| less J |t − stamp|, with a and stamp of either state.
+  kAccelerationMax,
   kSpeedMax,                ///< V [m/s].
   kAngularAccelerationMax,  ///< α [rad/s²].
   /// (x″ − a)·d >= 0: the declared value is 0, the value seen is how far below 0 it fell [m/s²].

@@ -19,7 +19,7 @@ using LongVector = std::array<Long, 3>;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-/// A true motion to 64 bits: at each moment under one constant acceleration.
+/// A true motion to 64 bits, in pieces of constant jerk.
 class TrueMotion {
  public:
   explicit TrueMotion(const MotionState& state) {
@@ -30,10 +30,11 @@ class TrueMotion {
     NoteSpeed();
   }
 
-  void Go(Long seconds, const Vector3d& acceleration) {
+  void Go(Long seconds, const Vector3d& acceleration, const Vector3d& jerk = Vector3d::Zero()) {
     for (int axis = 0; axis < 3; ++axis) {
-      p_[axis] += seconds * (v_[axis] + seconds * acceleration[axis] / 2);
-      v_[axis] += seconds * acceleration[axis];
+      const Long a = acceleration[axis], j = jerk[axis];
+      p_[axis] += seconds * (v_[axis] + seconds * (a / 2 + seconds * j / 6));
+      v_[axis] += seconds * (a + seconds * j / 2);
     }
     NoteSpeed();
   }
@@ -144,6 +145,36 @@ TEST(BrokenBound, IsNearlyTightForAKnownAccelerationThatIsWrong) {
     ASSERT_LE(Long(broken.seen), truth) << i;
     const Long excess = truth - broken.declared, rounding = 1e-6L;
     ASSERT_GE(Long(broken.seen), broken.declared + (1 - 2 * kSeenShortfall) * excess - rounding)
+        << i;
+  }
+}
+
+// Goal:   what the declared jerk explains is not counted as seen.
+// Method: a deviation that grows as the jerk allows, from a start beyond what is declared.
+TEST(BrokenBound, LeavesToTheJerkWhatItExplains) {
+  Random random(2107);
+  for (int i = 0; i < 1000; ++i) {
+    SpaceTimeBound before;
+    before.limits.acceleration_max = random.LogUniform(1e-1, 1e1);
+    before.limits.jerk_max = random.LogUniform(1e-1, 1e1);
+    before.state.v_WA = random.Uniform(0, 10) * random.UnitVector();
+    before.state.a_WA = random.Uniform(0, 20) * random.UnitVector();
+    const Vector3d along = random.UnitVector();
+    const Vector3d unknown =
+        before.limits.acceleration_max * (1 + random.LogUniform(1e-2, 1e2)) * along;
+    const Vector3d acceleration = before.state.a_WA + unknown;
+    const std::int64_t ns = kSecond / 10 + static_cast<std::int64_t>(random.Below(2 * kSecond));
+    TrueMotion motion(before.state);
+    const Vector3d jerk = before.limits.jerk_max * (1 - 1e-9) * along;
+    motion.Go(Long(ns) / 1'000'000'000, acceleration, jerk);
+    MotionState next = motion.Told(before, ns);
+    next.a_WA += static_cast<double>(ns) * 1e-9 * jerk;  // as far off as the state before
+    ASSERT_EQ(CheckContract(before, next).verdict, ContractVerdict::kBreached) << i;
+    const BrokenBound broken = ExplainBreach(before, next, OrientationUse::kIgnored);
+    ASSERT_EQ(broken.bound, DeclaredBound::kAccelerationMax) << i;
+    const Long truth = Length(acceleration - before.state.a_WA);
+    ASSERT_LE(Long(broken.seen), truth) << i;
+    ASSERT_GE(Long(broken.seen), truth - 2 * kSeenShortfall * (truth - broken.declared) - 1e-6L)
         << i;
   }
 }
