@@ -92,6 +92,13 @@ TEST(EventText, AContactOfShapesLeavesOutWhatIsUnknown) {
   EXPECT_NE(FromGap(event).find(", limited by motion"), std::string::npos);
 }
 
+TEST(EventText, AnEventOfALevelNamesIt) {
+  Event event = Confirmed();
+  event.level = "near";
+  const std::string line = EventLine(event, NameOf, 0);
+  EXPECT_NE(line.find("  #1 r3  level near  begin ["), std::string::npos) << line;
+}
+
 TEST(EventText, AnEventThatTheServiceEndedSaysWhy) {
   Event event = OfShapes();
   event.because = "silent";
