@@ -28,6 +28,11 @@ Violations CheckEvents(const Evidence& evidence);
 /// of the true motions. (geometry_check.cc)
 Violations CheckGeometry(const Evidence& evidence);
 
+/// A crossing of a level that is told took place: at the ends of its brackets the bodies are within
+/// the margin, or not, as these say. Whether all are told is not judged, since a level may leave
+/// pairs and repetitions out. (level_check.cc)
+Violations CheckLevels(const Evidence& evidence);
+
 /// No true contact of an agent begins before a clear_until published earlier, unless the pair was
 /// announced by then, or one of the two appeared or jumped since. And no promise is declared void,
 /// since these simulators break no bound.
@@ -39,7 +44,7 @@ Violations CheckEarliest(const Evidence& evidence);
 /// What the scene demands in addition.
 Violations CheckExpectation(const Evidence& evidence, const v1::SceneExpectation& expectation);
 
-/// All of the five rules above.
+/// All of the six rules above.
 Violations Check(const Evidence& evidence, const v1::SceneExpectation& expectation);
 
 /// True contacts that were required but had no event by the time they began.

@@ -17,7 +17,7 @@ namespace collision::checker {
 
 /// What a monitor received, in the order of arrival.
 struct Observations {
-  std::vector<v1::CollisionEvent> events;  ///< Those of levels are not judged.
+  std::vector<v1::CollisionEvent> events;
   std::vector<v1::EarliestIntersection> earliest;
   std::vector<v1::Clearance> clearances;
   std::vector<v1::AgentName> names;
@@ -48,7 +48,7 @@ struct Moment {
 /// Whether an event says that its contact has taken place or certainly will.
 bool IsConfirmed(const v1::CollisionEvent& event);
 
-/// All revisions of one contact as published.
+/// All revisions of one contact as published; of none of a level.
 struct EventHistory {
   std::size_t a = 0;  ///< Indices of the motions, a < b.
   std::size_t b = 0;
@@ -100,7 +100,7 @@ class Evidence {
   /// The motion of an agent; nullopt if no simulator logged it.
   std::optional<std::size_t> MotionOf(const v1::AgentId& id) const;
 
-  /// Events about agents that no simulator logged.
+  /// Events of contact about agents that no simulator logged.
   const std::vector<v1::CollisionEvent>& strange_events() const { return strange_events_; }
 
   /// The service may not have decided contacts that begin later: the earliest end of the logs, less

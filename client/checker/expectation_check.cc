@@ -125,8 +125,9 @@ Violations CheckExpectation(const Evidence& evidence, const v1::SceneExpectation
 Violations Check(const Evidence& evidence, const v1::SceneExpectation& expectation) {
   Violations all;
   for (const Violations& some :
-       {CheckEvents(evidence), CheckGeometry(evidence), CheckClearances(evidence),
-        CheckEarliest(evidence), CheckExpectation(evidence, expectation)}) {
+       {CheckEvents(evidence), CheckGeometry(evidence), CheckLevels(evidence),
+        CheckClearances(evidence), CheckEarliest(evidence),
+        CheckExpectation(evidence, expectation)}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

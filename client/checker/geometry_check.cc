@@ -5,23 +5,13 @@
 #include <limits>
 
 #include "client/checker/check.h"
+#include "client/checker/instants.h"
 #include "client/checker/motion/advancement.h"
 
 namespace collision::checker {
 namespace {
 
-constexpr double kLengthTolerance = 1e-6;  // [m] states and logs are rounded differently
 constexpr double kUnitTolerance = 1e-9;
-
-// The pieces that contain an instant. Where one ends and the next begins there are two, and an
-// event may refer to either if the agent jumps there.
-std::vector<const Piece*> PiecesAt(const AgentMotion& motion, std::int64_t t_ns) {
-  std::vector<const Piece*> found;
-  auto it = std::partition_point(motion.pieces.begin(), motion.pieces.end(),
-                                 [&](const Piece& piece) { return piece.t1_ns < t_ns; });
-  for (; it != motion.pieces.end() && it->t0_ns <= t_ns; ++it) found.push_back(&*it);
-  return found;
-}
 
 std::string Format(const char* format, double x, double y = 0, double z = 0) {
   char text[160];

@@ -107,6 +107,14 @@ TEST(Scenes, SwarmSendsWhatIsNeeded) {
   EXPECT_GT(NumberIn(json, "real_time_fraction"), 0);
 }
 
+// Two levels, one of them with a hysteresis: what they tell is judged by the true distances.
+TEST(Scenes, LevelsSatisfyTheChecker) {
+  const std::string json = ReportOf({"keep-out", "--seconds", "5"});
+  for (const char* level : {"near", "close"}) {
+    EXPECT_NE(json.find("\"level\": \"" + std::string(level) + "\""), json.npos) << level;
+  }
+}
+
 TEST(Scenes, AStreamSendsEverything) {
   const std::string json = ReportOf({"swarm-100", "--seconds", "2", "--stream"});
   EXPECT_EQ(NumberIn(json, "message_ratio"), 1);
@@ -131,6 +139,7 @@ std::string EventLogOf(const std::vector<std::string>& scene) {
 //         miss a forecast, of which a reader keeps the last two.
 TEST(Scenes, InLockStepTheEventsAreTheSameEveryTime) {
   const std::vector<std::string> scenes[] = {{"swarm-100", "--seconds", "5"},
+                                             {"keep-out", "--seconds", "3"},
                                              {"spaceships", "--seconds", "6"}};
   for (const std::vector<std::string>& scene : scenes) {
     const std::string first = EventLogOf(scene);

@@ -57,8 +57,9 @@ int Run(const std::string& report_path, const std::vector<std::string>& logs,
     return 0;
   }
   Violations violations = CheckEvents(evidence);
-  const Violations of_geometry = CheckGeometry(evidence);
-  violations.insert(violations.end(), of_geometry.begin(), of_geometry.end());
+  for (const Violations& more : {CheckGeometry(evidence), CheckLevels(evidence)}) {
+    violations.insert(violations.end(), more.begin(), more.end());
+  }
   for (const std::string& violation : violations) std::printf("violation: %s\n", violation.c_str());
   std::printf("%zu events checked: %s\n", evidence.histories().size(),
               violations.empty() ? "satisfied" : "NOT satisfied");

@@ -169,6 +169,10 @@ TEST(EventSentence, TellsAMarginAndTimesOfDay) {
   event.begin.earliest_ns = 1'795'229'895'022'000'000;
   Expect(event, kSecond,
          "could touch, but not before 02:58:15.02 UTC (within 2.3 m counts as touching).");
+  event.level = "near";
+  Expect(event, kSecond,
+         "could touch, but not before 02:58:15.02 UTC (within 2.3 m counts as touching: level "
+         "near).");
 }
 
 // A point that is known badly has no digits that say otherwise; an instant is told exactly.

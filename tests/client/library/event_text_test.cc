@@ -131,6 +131,13 @@ TEST(EventText, ADismissedEventSaysHowNearTheyCame) {
                   .ends_with("  passed at [1.23, 1.5] m in [601.000000, 602.000000]"));
 }
 
+TEST(EventText, AnEventOfALevelNamesIt) {
+  Event event = Confirmed();
+  event.level = "near";
+  const std::string line = EventLine(event, NameOf, 0);
+  EXPECT_NE(line.find("  #1 r3  level near  begin ["), std::string::npos) << line;
+}
+
 TEST(EventText, AnEventThatTheServiceEndedSaysWhy) {
   Event event = OfShapes();
   event.because = "silent";

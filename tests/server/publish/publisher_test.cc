@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "server/codec/encode.h"
 #include "tests/server/scripted_bus.h"
 
 namespace collision::server {
@@ -148,6 +151,64 @@ TEST(Publisher, ContactsAreNumberedInOneInstanceAndClearancesNameTheLast) {
   EXPECT_EQ(bus.outputs[3].clearance().contacts_sequence(), 2u);
   EXPECT_EQ(publisher.event_counters().contacts, 2u);
   EXPECT_EQ(publisher.event_counters().forecasts, 1u);
+}
+
+// Goal:   events of a level have its name and slots of their own; crossings share the history.
+TEST(Publisher, LevelsShareTheHistoryAndNoSlot) {
+  v1::Config config = Config();
+  for (const char* name : {"near", "far"}) {
+    config.add_levels()->set_name(name);
+    config.mutable_levels()->rbegin()->set_margin_m(1);
+  }
+  OneSimulator one(config);
+  ScriptedBus bus;
+  const ServiceClaim claim = Claimed();
+  Publisher publisher(config, &claim, &bus);
+  using enum detection::EventStatus;
+  publisher.PublishEvents({InSlot(3, kConfirmed), InSlot(4)}, one.world);
+  publisher.PublishLevelEvents(0, {InSlot(3, kConfirmed), InSlot(4)}, one.world);
+  publisher.PublishLevelEvents(1, {InSlot(4), InSlot(5)}, one.world);
+  std::set<std::uint32_t> slots;
+  std::string levels;
+  std::uint64_t contacts = 0;
+  for (const v1::Output& output : bus.outputs) {
+    const v1::CollisionEvent& event = output.collision_event();
+    levels += event.level() + " ";
+    if (event.contacts_sequence() > 0) {
+      EXPECT_EQ(event.contacts_sequence(), ++contacts);
+    } else {
+      EXPECT_TRUE(slots.insert(event.pair_slot()).second) << event.pair_slot();
+    }
+  }
+  EXPECT_EQ(levels, "  near near far far ");
+  EXPECT_EQ(contacts, 2u);
+}
+
+// Goal:   a standby keeps crossings of levels apart from contacts: what the other service has told
+//         of one is not taken for the other.
+TEST(Publisher, AStandbyTellsOfEachLevelWhatTheOtherServiceHasNot) {
+  v1::Config config = Config();
+  config.add_levels()->set_name("near");
+  config.mutable_levels(0)->set_margin_m(1);
+  OneSimulator one(config);
+  ScriptedBus bus;
+  ServiceClaim claim({.instance = 8, .wait_ns = kSecond});
+  Publisher publisher(config, &claim, &bus);
+  ASSERT_FALSE(claim.speaks());
+  using enum detection::EventStatus;
+  publisher.PublishEvents({InSlot(3, kConfirmed)}, one.world);
+  publisher.PublishLevelEvents(0, {InSlot(3, kConfirmed)}, one.world);
+  v1::Input heard;
+  *heard.mutable_event_heard() = Encode(InSlot(3, kConfirmed));
+  heard.mutable_event_heard()->set_contacts_sequence(5);
+  heard.mutable_event_heard()->mutable_stamp()->set_epoch(1);
+  publisher.Hear(heard);
+  publisher.PublishInherited(one.world);
+  std::string told;
+  for (const v1::Output& output : bus.outputs) {
+    told += "[" + output.collision_event().level() + "] ";
+  }
+  EXPECT_EQ(told, "[] [near] ") << "one as the other service told it, one that it did not tell";
 }
 
 TEST(Publisher, TheEventLogCountsEventsWithoutTheirStamps) {

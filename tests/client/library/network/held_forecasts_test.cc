@@ -27,6 +27,15 @@ TEST(HeldForecasts, OfEachPairTheNewestInTheOrderOfPublication) {
   EXPECT_TRUE(forecasts.Take().empty());
 }
 
+TEST(HeldForecasts, OfEachLevelOne) {
+  HeldForecasts forecasts;
+  v1::CollisionEvent near = Forecast(1, 3);
+  near.set_level("near");
+  forecasts.Hold(near);
+  forecasts.Hold(Forecast(1, 4));
+  EXPECT_EQ(forecasts.Take().size(), 2u);
+}
+
 TEST(HeldForecasts, TheNewestCountsAlsoIfItIsAboutOthers) {
   HeldForecasts forecasts;
   EXPECT_EQ(forecasts.newest(), 0u);

@@ -39,6 +39,18 @@ TEST_F(RevisionFilterTest, AnEventIsToldOnceInItsOrder) {
   EXPECT_EQ(contacts_.missed(), 0u);
 }
 
+TEST_F(RevisionFilterTest, LevelsCountForThemselves) {
+  v1::CollisionEvent near = Event(1, 2, v1::EVENT_CONFIRMED, 1);
+  near.set_level("near");
+  EXPECT_TRUE(IsNew(Event(1, 4, v1::EVENT_POSSIBLE)));
+  EXPECT_TRUE(IsNew(near));
+  EXPECT_TRUE(IsNew(Event(1, 5, v1::EVENT_POSSIBLE)));
+  near.set_revision(1);
+  near.set_status(v1::EVENT_POSSIBLE);
+  near.clear_contacts_sequence();
+  EXPECT_FALSE(IsNew(near));
+}
+
 TEST_F(RevisionFilterTest, AForecastThatWasOvertakenIsDropped) {
   EXPECT_TRUE(IsNew(Event(1, 4, v1::EVENT_CONFIRMED, 1)));
   EXPECT_FALSE(IsNew(Event(1, 3, v1::EVENT_POSSIBLE)));

@@ -23,7 +23,7 @@ class EventsTest : public testing::Test {
 
   std::shared_ptr<FakeNetwork> network_ = std::make_shared<FakeNetwork>();
   // In lock-step forecasts wait for the next step.
-  World world_ = ConnectTo(network_, {.lock_step = false});
+  World world_ = ConnectTo(network_, {.lock_step = false, .levels = {"near"}});
 };
 
 TEST_F(EventsTest, EachRevisionArrivesOnceAndOnlyForOwnAgents) {
@@ -47,6 +47,26 @@ TEST_F(EventsTest, EachRevisionArrivesOnceAndOnlyForOwnAgents) {
   EXPECT_TRUE(world_.TakeEvents().empty());
 }
 
+TEST_F(EventsTest, LevelsComeWhereTheyAreNamed) {
+  v1::CollisionEvent near = OwnEvent(1, 1, 10), far = OwnEvent(1, 1, 11);
+  near.set_level("near");
+  far.set_level("far");
+  World listener = ConnectTo(network_, {.lock_step = false});
+  for (World* world : {&world_, &listener}) {
+    Arrive(near);
+    Arrive(far);
+    Arrive(OwnEvent(1, 1, 12));
+    world->Poll();
+  }
+  const auto levels = [](World* world) {
+    std::vector<std::string> names;
+    for (const Event& event : world->TakeEvents()) names.push_back(event.level);
+    return names;
+  };
+  EXPECT_EQ(levels(&world_), (std::vector<std::string>{"near", ""}));
+  EXPECT_EQ(levels(&listener), std::vector<std::string>{""});
+}
+
 TEST_F(EventsTest, AllFieldsArrive) {
   v1::CollisionEvent event = OwnEvent(3, 4, 10);
   event.set_now_ns(1);
@@ -66,6 +86,7 @@ TEST_F(EventsTest, AllFieldsArrive) {
   event.mutable_proximity()->mutable_normal()->mutable_direction()->set_z(1);
   event.mutable_proximity()->mutable_normal()->set_error_rad(11);
   event.set_tree_level(12);
+  event.set_level("near");
   event.set_work_units(13);
   event.set_limited_by(v1::LIMIT_GEOMETRY);
   event.mutable_lower_label()->set_simulator_name(kSimulator);
@@ -105,6 +126,7 @@ TEST_F(EventsTest, AllFieldsArrive) {
   EXPECT_EQ(received.proximity->normal->direction, (Vector3{0, 0, 1}));
   EXPECT_EQ(received.proximity->normal->error_rad, 11);
   EXPECT_EQ(received.tree_level, 12u);
+  EXPECT_EQ(received.level, "near");
   EXPECT_EQ(received.work_units, 13u);
   EXPECT_EQ(received.limited_by, EventLimit::kGeometry);
   EXPECT_EQ(received.because, "silent");

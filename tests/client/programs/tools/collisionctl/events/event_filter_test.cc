@@ -92,6 +92,16 @@ TEST_F(EventFilterTest, AStatusIsOneOfThoseThatAreNamed) {
   EXPECT_EQ(StatusOf(""), std::nullopt);
 }
 
+TEST_F(EventFilterTest, ALevelIsOneOfThoseThatAreNamed) {
+  v1::CollisionEvent near = Make(1, 0), far = Make(2, 0);
+  near.set_level("near");
+  far.set_level("far");
+  const std::vector<v1::CollisionEvent> events = {near, far, Make(3, 0)};
+  EXPECT_EQ(Of({}, events), (Contacts{1, 2, 3}));
+  EXPECT_EQ(Of({.levels = {"near", kContactLevel}}, events), (Contacts{1, 3}));
+  EXPECT_EQ(Of({.levels = {"nearer"}}, events), Contacts{});
+}
+
 TEST_F(EventFilterTest, WithinTakesWhatBeginsByThen) {
   v1::CollisionEvent began_before = Make(4, 9 * kSecond), never = Make(5, 0);
   began_before.set_began_before(true);

@@ -123,6 +123,7 @@ TEST_F(SchemaTest, TakesEventsOfEveryStatusEvaluatedOrNot) {
     event.set_limited_by(static_cast<v1::EventLimit>(status % 4));
     event.set_contacts_sequence(7);
     FillEncounter(&event);
+    event.set_level("near");
     event.mutable_lower_label()->set_simulator_name("people");
     event.mutable_lower_label()->add_tags()->set_key("kind");
     documents.push_back(EventJson(event, view_, "A sentence."));
