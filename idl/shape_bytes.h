@@ -18,7 +18,9 @@ enum class SolidKind : std::uint32_t {
   kCapsule = 2,    ///< A segment along z, rounded; half its length is half_extents[2].
   kBox = 3,        ///< May be rounded.
   kEllipsoid = 4,  ///< The half axes are half_extents.
-  kHull = 5        ///< Of `points`; may be rounded.
+  kHull = 5,       ///< Of `points`; may be rounded.
+  kCylinder = 6,   ///< half_extents: its radius twice, half its length along z; may be rounded.
+  kCone = 7        ///< Likewise; its apex is at +z, the centre of its base at −z.
 };
 
 /// A convex solid in a frame of its own: all points at most `rounding` [m] away from its core.

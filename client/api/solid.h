@@ -16,10 +16,11 @@ namespace collision::client {
 /// Allowed: lengths from 0 to 10,000 km, a diameter from a micrometre to 10,000 km, each
 /// coordinate of a point and of a position within ±10,000 km, 1 to 65,536 points per hull.
 struct Solid {
-  enum class Kind { kBall, kCapsule, kBox, kEllipsoid, kHull };
+  enum class Kind { kBall, kCapsule, kBox, kEllipsoid, kHull, kCylinder, kCone };
 
   Kind kind = Kind::kBall;
-  /// Box: half extents. Ellipsoid: half axes. Capsule: z is half its axis without the caps.
+  /// Box: half extents. Ellipsoid: half axes. Capsule: z is half its axis without the caps. Cylinder
+  /// and cone: x and y are the radius, z is half the length.
   Vector3 half_extents_m{};
   double rounding_m = 0;               ///< Ball and capsule: the radius.
   std::vector<Vector3> points_m = {};  ///< Hull: in any order; inner points are allowed.
@@ -39,6 +40,13 @@ struct Solid {
 
   /// Half axes along x, y, z.
   static Solid Ellipsoid(const Vector3& half_axes_m);
+
+  /// About the z axis, from z = −`half_length_m` to `half_length_m`.
+  static Solid Cylinder(double radius_m, double half_length_m);
+
+  /// About the z axis: its base of this radius at z = −`half_length_m`, its apex at
+  /// z = `half_length_m`.
+  static Solid Cone(double radius_m, double half_length_m);
 
   /// The smallest convex set around the points; it may be flat or straight.
   static Solid Hull(std::vector<Vector3> points_m);

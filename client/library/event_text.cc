@@ -249,7 +249,8 @@ std::string EventLine(const Event& event, const AgentNamer& name, std::int64_t o
          std::to_string(event.contact) + " r" + std::to_string(event.revision) + "  " +
          (event.level.empty() ? "" : "level " + event.level + "  ") + WhenText(event, origin_ns) +
          GapText(event) + SpeedText(event) + ExpectedText(event, origin_ns) +
-         ClosestText(event, origin_ns) + (event.because.empty() ? "" : "  because " + event.because);
+         ClosestText(event, origin_ns) +
+         (event.because.empty() ? "" : "  because " + event.because);
 }
 
 }  // namespace collision::client

@@ -89,13 +89,15 @@ std::shared_ptr<const geometry::ConvexPoints> SetPoints(const ConvexDescription&
   return points;
 }
 
-/// Corners in the body frame, none for an ellipsoid; off by less than kSupportError span.
+/// Corners in the body frame, none where the surface is curved; off by less than kSupportError span.
 std::vector<Vector3d> CornersOf(const geometry::ConvexSet& set) {
   std::vector<Vector3d> corners;
   const auto add = [&](const Vector3d& seen) { corners.push_back(set.centre + seen); };
   const Eigen::Matrix3d& g = set.generators;
   switch (set.core) {
     case geometry::ConvexCore::kEllipsoid:
+    case geometry::ConvexCore::kCylinder:
+    case geometry::ConvexCore::kCone:
       break;
     case geometry::ConvexCore::kPoint:
       add(Vector3d::Zero());
@@ -154,11 +156,25 @@ void SetBox(const geometry::ConvexSet& set, ConvexFacts* facts) {
   }
 }
 
-/// A ball in the core about its centre, known from its measures.
+/// A ball in the core about its centre, known from its measures. Half-way up a cone with radius r
+/// and height 2h the axis is r h / √(r² + 4h²) away from the side, which is less than h.
 double CoreInradius(const ConvexDescription& d) {
-  const bool known =
-      d.core == geometry::ConvexCore::kBox || d.core == geometry::ConvexCore::kEllipsoid;
+  if (d.core == geometry::ConvexCore::kCone) {
+    const numeric::Interval r = d.half.x(), h = d.half.z();
+    const numeric::Interval side = numeric::Sqrt(Square(r) + Square(numeric::Interval(2) * h));
+    return side.lower > 0 ? (r * h / side).lower : 0;
+  }
+  const bool known = d.core == geometry::ConvexCore::kBox ||
+                     d.core == geometry::ConvexCore::kEllipsoid ||
+                     d.core == geometry::ConvexCore::kCylinder;
   return known ? d.half.minCoeff() : 0;
+}
+
+/// No point of the core is farther from its centre.
+double CoreReach(const ConvexDescription& d, const geometry::ConvexSet& set) {
+  if (d.core == geometry::ConvexCore::kEllipsoid) return d.half.maxCoeff();
+  if (set.IsTurned()) return LengthUp({d.half.x(), 0, d.half.z()});
+  return set.span;
 }
 
 void SetInside(const ConvexDescription& d, const geometry::ConvexSet& set, ConvexFacts* facts) {
@@ -190,7 +206,7 @@ ConvexSolid ConvexSolid::Build(const ConvexDescription& d) {
   } else {
     set.centre = d.p_BS;
     if (d.core != geometry::ConvexCore::kPoint) SetGenerators(d, rotation, &set);
-    reach = d.core == geometry::ConvexCore::kEllipsoid ? d.half.maxCoeff() : set.span;
+    reach = CoreReach(d, set);
   }
   SetBalls(set, reach, &solid.facts_);
   SetBox(set, &solid.facts_);

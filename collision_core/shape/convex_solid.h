@@ -1,4 +1,4 @@
-// Convex solids: ball, capsule, box, ellipsoid, hull of points; and the half-space.
+// Convex solids: ball, capsule, box, ellipsoid, cylinder, cone, hull of points; and the half-space.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,7 +14,8 @@ namespace collision::shape {
 /// A convex solid as its owner describes it: a core, rounded, and placed in the body frame B.
 struct ConvexDescription {
   geometry::ConvexCore core = geometry::ConvexCore::kPoint;
-  /// kSegment: half its length along z. kBox: half extents. kEllipsoid: semi-axes. [m]
+  /// kSegment: half its length along z. kBox: half extents. kEllipsoid: semi-axes. kCylinder and
+  /// kCone: the radius as x and as y, half the length along z; a cone's apex is at +z. [m]
   Eigen::Vector3d half{0, 0, 0};
   /// The points of a hull [m], in any order; inner points and duplicates are allowed.
   std::vector<Eigen::Vector3d> points;

@@ -1,5 +1,7 @@
 // Why a convex solid cannot be an agent's shape.
 
+#include <cmath>
+
 #include "collision_core/base/number_text.h"
 #include "collision_core/shape/convex_solid.h"
 
@@ -47,6 +49,10 @@ Refusal RefusalOfPoints(const std::vector<Vector3d>& points) {
   return std::nullopt;
 }
 
+bool IsTurned(const ConvexDescription& d) {
+  return d.core == geometry::ConvexCore::kCylinder || d.core == geometry::ConvexCore::kCone;
+}
+
 /// The size that is checked: for a hull the diagonal of the points' box, for other solids twice
 /// their half measures.
 double SizeOf(const ConvexDescription& d) {
@@ -54,6 +60,7 @@ double SizeOf(const ConvexDescription& d) {
   if (d.core == geometry::ConvexCore::kSegment) size = 2 * d.half.z();
   if (d.core == geometry::ConvexCore::kBox) size = 2 * d.half.norm();
   if (d.core == geometry::ConvexCore::kEllipsoid) size = 2 * d.half.maxCoeff();
+  if (IsTurned(d)) size = 2 * std::hypot(d.half.x(), d.half.z());
   if (d.core == geometry::ConvexCore::kHull) {
     Vector3d lower = d.points[0], upper = d.points[0];
     for (const Vector3d& p : d.points) lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
@@ -64,7 +71,8 @@ double SizeOf(const ConvexDescription& d) {
 
 Refusal RefusalOfMeasures(const ConvexDescription& d) {
   if (d.core == geometry::ConvexCore::kTriangle) {
-    return "convex.core is a triangle; allowed are point, segment, box, ellipsoid and hull";
+    return "convex.core is a triangle; allowed are point, segment, box, ellipsoid, "
+           "cylinder, cone and hull";
   }
   if (auto refusal = RefusalOfLength("convex.rounding", d.rounding)) return refusal;
   if (d.core == geometry::ConvexCore::kHull) return RefusalOfPoints(d.points);
@@ -73,6 +81,10 @@ Refusal RefusalOfMeasures(const ConvexDescription& d) {
                         (d.core != geometry::ConvexCore::kSegment || i == 2);
     if (!counts) continue;
     if (auto refusal = RefusalOfLength("convex.half" + Axis(i), d.half[i])) return refusal;
+  }
+  if (IsTurned(d) && d.half.x() != d.half.y()) {
+    return "convex.half.y is " + NumberText(d.half.y()) +
+           "; allowed is the radius, as in x: " + NumberText(d.half.x());
   }
   return std::nullopt;
 }

@@ -31,6 +31,8 @@ void AddCorners(const geometry::ConvexSet& set, std::vector<Vector3d>* points) {
       break;
     case geometry::ConvexCore::kBox:
     case geometry::ConvexCore::kEllipsoid:
+    case geometry::ConvexCore::kCylinder:
+    case geometry::ConvexCore::kCone:
       AddBox(set.centre, set.generators, points);
       break;
     case geometry::ConvexCore::kHull:

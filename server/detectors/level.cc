@@ -6,11 +6,11 @@
 namespace collision::server {
 namespace {
 
-/// Whether the agents of a forecast come within the margin if both keep the motion they told.
-///
-/// The detector does not predict yet: it says what cannot be excluded and nothing else. So every
-/// forecast passes, and a level of what is expected tells as much as one of what is possible.
-bool IsExpected(const detection::CollisionEvent&) { return true; }
+/// Whether the agents of a forecast may come within the margin if both keep the motion they told:
+/// also where that is open, or a shape is awaited.
+bool IsExpected(const detection::CollisionEvent& event) {
+  return !event.expected || event.expected->outcome != detection::ExpectedOutcome::kPass;
+}
 
 }  // namespace
 

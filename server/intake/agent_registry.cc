@@ -19,7 +19,7 @@ AgentRegistry::AgentRegistry(const v1::Config& config, World* world, Detectors* 
       shapes_(*shapes),
       names_(config),
       undescribed_(ToNanoseconds(config.undescribed_after_s())),
-      breaches_(&world_, &detector_) {}
+      breaches_(&world_, &detectors->contacts()) {}
 
 void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& wire,
                              const detection::AgentDeclaration& declaration) {

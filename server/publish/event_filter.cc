@@ -24,6 +24,11 @@ bool SameEvent(const CollisionEvent& a, const CollisionEvent& b) {
   return a.lower == b.lower && a.higher == b.higher && a.contact == b.contact;
 }
 
+/// Whether the two touch if both keep their motion.
+bool IsExpected(const CollisionEvent& event) {
+  return event.expected && event.expected->outcome == detection::ExpectedOutcome::kTouch;
+}
+
 /// The width of its begin bracket [ns], also where nothing is known of its beginning.
 std::uint64_t Width(const CollisionEvent& event) {
   return static_cast<std::uint64_t>(event.begin.latest.nanoseconds()) -
@@ -90,6 +95,7 @@ void EventFilter::TakePossible(const Event& event, Pair* pair) {
 }
 
 bool EventFilter::IsNews(const Event& event, const Event& told) const {
+  if (IsExpected(event) != IsExpected(told)) return true;
   const Instant begin = event.begin.earliest, told_begin = told.begin.earliest;
   if (begin <= told_begin) return begin < told_begin;
   if (told_begin > event.now) {

@@ -35,6 +35,7 @@ struct Telling {
 ///  - when it is new, when it is dismissed or withdrawn after it was told, and, with that status,
 ///    when its pair turns out to be a contact;
 ///  - when its certified begin is earlier than told;
+///  - when the two are expected to touch, and were not as told, or the other way about;
 ///  - when that is later by more than a quarter of what is left until the begin told, and what is
 ///    left now differs by more than a quarter from what was left then. Two people side by side
 ///    could always meet in half a second: each moment moves the begin, and says nothing new.

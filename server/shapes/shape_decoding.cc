@@ -33,6 +33,8 @@ constexpr Kind kKinds[] = {
     {SolidKind::kBox, "box", geometry::ConvexCore::kBox, {true, true, true}},
     {SolidKind::kEllipsoid, "ellipsoid", geometry::ConvexCore::kEllipsoid, {true, true, true}},
     {SolidKind::kHull, "hull", geometry::ConvexCore::kHull, {false, false, false}},
+    {SolidKind::kCylinder, "cylinder", geometry::ConvexCore::kCylinder, {true, true, true}},
+    {SolidKind::kCone, "cone", geometry::ConvexCore::kCone, {true, true, true}},
 };
 
 const Kind* FindKind(SolidKind kind) {
@@ -105,7 +107,8 @@ Reason RefusalOfSolid(const SolidContent& solid) {
   const Kind* kind = FindKind(solid.kind);
   if (kind == nullptr) {
     return fmt::format(
-        "kind is {}; allowed are 1 (ball), 2 (capsule), 3 (box), 4 (ellipsoid) and 5 (hull)",
+        "kind is {}; allowed are 1 (ball), 2 (capsule), 3 (box), 4 (ellipsoid), 5 (hull), 6 "
+        "(cylinder) and 7 (cone)",
         static_cast<std::uint32_t>(solid.kind));
   }
   if (auto refusal = RefusalOfUnused(solid, *kind)) return refusal;

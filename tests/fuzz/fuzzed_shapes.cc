@@ -14,13 +14,17 @@ client::Vector3 FuzzedPoint(FuzzedData* data) {
 
 client::Solid FuzzedSolid(FuzzedData* data) {
   client::Solid solid;
-  solid.kind = static_cast<client::Solid::Kind>(data->Below(5));
+  solid.kind = static_cast<client::Solid::Kind>(data->Below(7));
   for (std::size_t i = 0; i < 3; ++i) {
-    const bool counts = solid.kind == client::Solid::Kind::kBox ||
-                        solid.kind == client::Solid::Kind::kEllipsoid ||
-                        (solid.kind == client::Solid::Kind::kCapsule && i == 2);
+    const bool counts =
+        solid.kind == client::Solid::Kind::kBox || solid.kind == client::Solid::Kind::kEllipsoid ||
+        solid.kind == client::Solid::Kind::kCylinder || solid.kind == client::Solid::Kind::kCone ||
+        (solid.kind == client::Solid::Kind::kCapsule && i == 2);
     if (counts || data->Byte() == 255) solid.half_extents_m[i] = std::abs(data->Wild(kReach));
   }
+  const bool turned =
+      solid.kind == client::Solid::Kind::kCylinder || solid.kind == client::Solid::Kind::kCone;
+  if (turned && data->Byte() != 255) solid.half_extents_m[1] = solid.half_extents_m[0];
   solid.rounding_m = data->Byte() == 255 ? data->Wild(kReach) : data->UpTo(kReach);
   if (solid.kind == client::Solid::Kind::kHull) {
     for (std::size_t i = data->Below(12); i > 0; --i) solid.points_m.push_back(FuzzedPoint(data));

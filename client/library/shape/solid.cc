@@ -18,6 +18,14 @@ Solid Solid::Ellipsoid(const Vector3& half_axes_m) {
   return {.kind = Kind::kEllipsoid, .half_extents_m = half_axes_m};
 }
 
+Solid Solid::Cylinder(double radius_m, double half_length_m) {
+  return {.kind = Kind::kCylinder, .half_extents_m = {radius_m, radius_m, half_length_m}};
+}
+
+Solid Solid::Cone(double radius_m, double half_length_m) {
+  return {.kind = Kind::kCone, .half_extents_m = {radius_m, radius_m, half_length_m}};
+}
+
 Solid Solid::Hull(std::vector<Vector3> points_m) {
   return {.kind = Kind::kHull, .points_m = std::move(points_m)};
 }
@@ -55,6 +63,10 @@ const char* Name(Solid::Kind kind) {
       return "box";
     case Solid::Kind::kEllipsoid:
       return "ellipsoid";
+    case Solid::Kind::kCylinder:
+      return "cylinder";
+    case Solid::Kind::kCone:
+      return "cone";
     case Solid::Kind::kHull:
       break;
   }

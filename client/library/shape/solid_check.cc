@@ -29,6 +29,10 @@ geometry::ConvexCore CoreOf(Solid::Kind kind) {
       return geometry::ConvexCore::kEllipsoid;
     case Solid::Kind::kHull:
       return geometry::ConvexCore::kHull;
+    case Solid::Kind::kCylinder:
+      return geometry::ConvexCore::kCylinder;
+    case Solid::Kind::kCone:
+      return geometry::ConvexCore::kCone;
   }
   return geometry::ConvexCore::kTriangle;
 }
@@ -43,6 +47,10 @@ SolidKind KindOf(Solid::Kind kind) {
       return SolidKind::kBox;
     case Solid::Kind::kEllipsoid:
       return SolidKind::kEllipsoid;
+    case Solid::Kind::kCylinder:
+      return SolidKind::kCylinder;
+    case Solid::Kind::kCone:
+      return SolidKind::kCone;
     case Solid::Kind::kHull:
       break;
   }
@@ -83,7 +91,8 @@ void MakeCanonical(Solid* solid) {
 
 /// Which half extents have a meaning.
 std::array<bool, 3> UsedHalfExtents(Solid::Kind kind) {
-  const bool all = kind == Solid::Kind::kBox || kind == Solid::Kind::kEllipsoid;
+  const bool all =
+      kind != Solid::Kind::kBall && kind != Solid::Kind::kCapsule && kind != Solid::Kind::kHull;
   return {all, all, all || kind == Solid::Kind::kCapsule};
 }
 

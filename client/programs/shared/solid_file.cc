@@ -21,6 +21,10 @@ Solid CoreOf(const v1::ConvexSolid& message) {
       return Solid::Box(VectorOf(message.box().half_extents_m()));
     case v1::ConvexSolid::kEllipsoid:
       return Solid::Ellipsoid(VectorOf(message.ellipsoid().half_axes_m()));
+    case v1::ConvexSolid::kCylinder:
+      return Solid::Cylinder(message.cylinder().radius_m(), message.cylinder().half_length_m());
+    case v1::ConvexSolid::kCone:
+      return Solid::Cone(message.cone().radius_m(), message.cone().half_length_m());
     case v1::ConvexSolid::kHull: {
       std::vector<Vector3> points;
       for (const v1::Vector3& point : message.hull().points_m()) points.push_back(VectorOf(point));
@@ -57,8 +61,8 @@ std::vector<Solid> ReadSolids(const std::string& path) {
   for (const v1::ConvexSolid& solid : message.solids()) {
     if (solid.core_case() == v1::ConvexSolid::CORE_NOT_SET) {
       throw BadInput(path + ": solids[" + std::to_string(solids.size()) +
-                     "]: core is missing; allowed are ball, capsule, box, ellipsoid, hull "
-                     "and half_space");
+                     "]: core is missing; allowed are ball, capsule, box, ellipsoid, "
+                     "cylinder, cone, hull and half_space");
     }
     solids.push_back(SolidOf(solid));
   }

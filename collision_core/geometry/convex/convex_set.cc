@@ -7,6 +7,12 @@
 //   kEllipsoid      m = Gᵀn is off by 3u span. z = m / |m| has a length of 1 ± 4.5u and, exactly,
 //                   n·Gz >= |m| (1 − 4.5u) − 3u span >= |Gᵀn| − 10.5u span. Gz is off by 3u span,
 //                   and within 4.5u span of a point of the ellipsoid: 7.5u span in all.
+//   kCylinder       Its disc is an ellipse, with two generators; its axis a segment.
+//   kCone           With ρ = max |g_0|, |g_1|, 2ρ of the span: n·apex and the greatest n·x of the
+//                   base are off by 3u |g_2| each, of the base by 3.4u 2ρ more: m by 3u √2 ρ, its
+//                   length by 2.5u ρ. So the wrong end costs 6u |g_2| + 3.4u 2ρ. On the base n·Gz
+//                   >= |m| (1 − 4.5u) − 3u √2 ρ >= |Gᵀn| − 6.5u 2ρ, and the point is off as that of
+//                   an ellipsoid: less than 10.5u span and 7.5u span.
 //   kHull           span is twice the points' reach ρ. G is a rotation to within 2^-20: m = Gᵀn is
 //                   off by 3u √3, counted twice, the choice by 16u ρ: 26.4u ρ. Gx is off by
 //                   3u √3 ρ.

@@ -18,6 +18,8 @@ enum class ConvexCore : std::uint8_t {
   kTriangle,  ///< A triangle of a mesh.
   kBox,
   kEllipsoid,
+  kCylinder,
+  kCone,
   kHull  ///< The convex hull of points.
 };
 
@@ -28,6 +30,8 @@ enum class ConvexCore : std::uint8_t {
 ///   kTriangle   the hull of g_0, g_1, g_2
 ///   kBox        s g_0 + t g_1 + u g_2, each factor in [−1, 1] (columns need not be orthogonal)
 ///   kEllipsoid  the same with s² + t² + u² <= 1
+///   kCylinder   the same with s² + t² <= 1 and |u| <= 1
+///   kCone       the hull of g_2, its apex, and of s g_0 + t g_1 − g_2 with s² + t² <= 1, its base
 ///   kHull       the hull of G x for all points x
 /// The true set differs from this one by at most `error`: each point of either lies within `error`
 /// of a point of the other.
@@ -49,9 +53,21 @@ struct ConvexSet {
   Eigen::Vector3d PointAt(const Eigen::Vector3d& z) const;
   Eigen::Vector3d SupportPoint(const Eigen::Vector3d& n) const { return PointAt(Support(n)); }
 
-  bool IsSmooth() const { return core == ConvexCore::kEllipsoid; }
+  /// The coordinates of the point that has the part of the one at `z` in the direction n: of the
+  /// same end of a cylinder, the apex of a cone for the apex. Of other cores Support(n).
+  Eigen::Vector3d SupportBeside(const Eigen::Vector3d& z, const Eigen::Vector3d& n) const;
+
+  /// Whether the surface is curved.
+  bool IsSmooth() const { return core == ConvexCore::kEllipsoid || IsTurned(); }
+  /// Whether the core is made of circles about the third generator.
+  bool IsTurned() const { return core == ConvexCore::kCylinder || core == ConvexCore::kCone; }
+
   /// Whether the core is a point or a segment.
   bool IsThin() const { return core == ConvexCore::kPoint || core == ConvexCore::kSegment; }
+
+ private:
+  /// The coordinates of the point of a disc at this end (−1 or 1) that is furthest along n.
+  Eigen::Vector3d OnRim(const Eigen::Vector3d& n, double end) const;
 };
 
 /// The triangle with these corners: exact, but for the rounding of differences.
@@ -66,6 +82,8 @@ ConvexSet BallSet(const Eigen::Vector3d& centre, double radius);
 /// Where all products underflow, kSupportUnderflow is added.
 inline constexpr double kSupportError = 18 * numeric::kUnitRoundoff;
 inline constexpr double kSupportUnderflow = 0x1p-500;
+/// [m] Far below what kSupportError leaves of the smallest solid (a micrometre).
+inline constexpr double kRimMin = 0x1p-200;
 
 /// At least |v|: a root of a sum of three squares is off by 2.5 · 2^-53 of itself, but for
 /// underflow.
@@ -75,6 +93,14 @@ inline double LengthUp(const Eigen::Vector3d& v) {
 
 inline Eigen::Vector3d ConvexSet::PointAt(const Eigen::Vector3d& z) const {
   return z.x() * generators.col(0) + z.y() * generators.col(1) + z.z() * generators.col(2);
+}
+
+inline Eigen::Vector3d ConvexSet::OnRim(const Eigen::Vector3d& n, double end) const {
+  const double s = n.dot(generators.col(0)), t = n.dot(generators.col(1));
+  const double rim = std::sqrt(s * s + t * t);
+  // Where the square may have lost digits the whole disc is as far along n, to within kRimMin.
+  if (!(rim > kRimMin)) return {0, 0, end};
+  return {s / rim, t / rim, end};
 }
 
 inline Eigen::Vector3d ConvexSet::Support(const Eigen::Vector3d& n) const {
@@ -98,10 +124,24 @@ inline Eigen::Vector3d ConvexSet::Support(const Eigen::Vector3d& n) const {
       const double scale = 1 / std::sqrt(square);
       return {m.x() * scale, m.y() * scale, m.z() * scale};
     }
+    case ConvexCore::kCylinder:
+      return OnRim(n, std::copysign(1, along(2)));
+    case ConvexCore::kCone: {
+      const double s = along(0), t = along(1), u = along(2);
+      if (u >= std::sqrt(s * s + t * t) - u) return {0, 0, 1};
+      return OnRim(n, -1);
+    }
     case ConvexCore::kHull:
       return (*points)[points->Furthest({along(0), along(1), along(2)})];
   }
   return {0, 0, 0};
+}
+
+inline Eigen::Vector3d ConvexSet::SupportBeside(const Eigen::Vector3d& z,
+                                                const Eigen::Vector3d& n) const {
+  if (!IsTurned()) return Support(n);
+  const bool apex = core == ConvexCore::kCone && z.z() > 0;
+  return apex ? z : OnRim(n, z.z());
 }
 
 }  // namespace collision::geometry

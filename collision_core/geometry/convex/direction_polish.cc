@@ -10,11 +10,17 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// The second derivative of the support function h. For an ellipsoid h(n) = |Gᵀ n| = √(nᵀ A n) with
-/// A = G Gᵀ, so h'' = (A − s sᵀ) / h, where s = A n / h is the support point. For any other core it
-/// is zero, because a small rotation of n does not move the support point.
+/// A = G Gᵀ, so h'' = (A − s sᵀ) / h, where s = A n / h is the support point. On the rim of a
+/// cylinder or a cone it is that of the disc, an ellipsoid without a third generator. For any other
+/// core, and at an apex, it is zero, because a small rotation of n does not move the support point.
 Matrix3d CurvatureOf(const ConvexSet& set, const Vector3d& n) {
-  if (set.core != ConvexCore::kEllipsoid) return Matrix3d::Zero();
-  const Matrix3d a = set.generators * set.generators.transpose();
+  if (!set.IsSmooth()) return Matrix3d::Zero();
+  Matrix3d g = set.generators;
+  if (set.IsTurned()) {
+    if (set.core == ConvexCore::kCone && set.Support(n).z() > 0) return Matrix3d::Zero();
+    g.col(2).setZero();
+  }
+  const Matrix3d a = g * g.transpose();
   const Vector3d an = a * n;
   const double square = n.dot(an);
   if (!(square > 0)) return Matrix3d::Zero();

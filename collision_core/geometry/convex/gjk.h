@@ -15,8 +15,8 @@ namespace collision::geometry {
 /// one of B less one of A. The centres are subtracted first (A is seen from its own centre, B from
 /// A's), so rounding is relative to the size of the pair; their place in the world does not count.
 ///
-/// A convex solid is a core (point, segment, box, ellipsoid, hull) and all points within a radius
-/// of it. The searches treat cores; the radii are added at the end.
+/// A convex solid is a core (point, segment, box, ellipsoid, cylinder, cone, hull) and all points
+/// within a radius of it. The searches treat cores; the radii are added at the end.
 class ConvexPair {
  public:
   ConvexPair(const ConvexSet& a, const ConvexSet& b) : a_(a), b_(b), between_(b.centre - a.centre) {

@@ -78,7 +78,7 @@ Part Around(const shape::ConvexSolid& solid) {
     }
     return part;
   }
-  // Ellipsoids lie in the box of their axes.
+  // Ellipsoids, cylinders and cones lie in the box of their axes.
   const int corners = set.core == geometry::ConvexCore::kSegment ? 2 : 8;
   for (int i = 0; i < corners; ++i) {
     part.Add(set.centre +

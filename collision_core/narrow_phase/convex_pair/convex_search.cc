@@ -145,7 +145,7 @@ void ConvexSearch::TryWithPoints(const Vector3d& direction) {
   const Vector3d n = direction / length;
   const geometry::ConvexPair::Point there = pair_.Against(n);
   bracket_.TakeGap(n, n.dot(there.y));
-  const geometry::GjkResult moved = WithSmoothPoint(there);
+  const geometry::GjkResult moved = WithSmoothPoints(n);
   std::array<const Vector3d*, 4> corners{};
   for (int i = 0; i < moved.count; ++i) corners[i] = &moved.simplex[i].y;
   geometry::SimplexPoint point;
@@ -165,13 +165,13 @@ void ConvexSearch::TryWithPoints(const Vector3d& direction) {
   bracket_.TakeWay(sum);
 }
 
-/// What was found, with the smooth cores' point of `point` in every corner of the simplex.
-geometry::GjkResult ConvexSearch::WithSmoothPoint(const geometry::ConvexPair::Point& point) const {
+/// What was found, with the smooth cores' points turned towards n in every corner of the simplex.
+geometry::GjkResult ConvexSearch::WithSmoothPoints(const Vector3d& n) const {
   geometry::GjkResult moved = found_;
   for (int i = 0; i < moved.count; ++i) {
     geometry::ConvexPair::Witness witness = moved.simplex[i].witness;
-    if (pair_.a().IsSmooth()) witness.a = point.witness.a;
-    if (pair_.b().IsSmooth()) witness.b = point.witness.b;
+    if (pair_.a().IsSmooth()) witness.a = pair_.a().SupportBeside(witness.a, n);
+    if (pair_.b().IsSmooth()) witness.b = pair_.b().SupportBeside(witness.b, -n);
     moved.simplex[i] = pair_.At(witness);
   }
   return moved;

@@ -44,7 +44,7 @@ class ConvexSearch {
   void PolishAcross(const Eigen::Vector3d& edge);
   int CornersOfPolytope(std::array<Eigen::Vector3d, 4>* corners) const;
   void TryWithPoints(const Eigen::Vector3d& direction);
-  geometry::GjkResult WithSmoothPoint(const geometry::ConvexPair::Point& point) const;
+  geometry::GjkResult WithSmoothPoints(const Eigen::Vector3d& n) const;
   void Deepen();
   void GrowPolytope();
 

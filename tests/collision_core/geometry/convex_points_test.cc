@@ -5,6 +5,7 @@
 #include "collision_core/geometry/convex/convex_set.h"
 #include "collision_core/geometry/convex/gjk.h"
 #include "tests/support/random_points.h"
+#include "tests/support/random_rotation.h"
 #include "tests/support/truth/exact_convex.h"
 
 namespace collision::geometry {
@@ -95,6 +96,41 @@ TEST(ConvexSet, EllipsoidSupportErrorsHold) {
     EXPECT_LE(square, with * with);
     EXPECT_GE(square, (with - 2 * Exact(kSupportError * set.span)) *
                           (with - 2 * Exact(kSupportError * set.span)));
+  }
+}
+
+// Goal:   likewise of cylinders and cones, flat ones and needles too, along their axes as well.
+// Method: nothing of a cylinder reaches further along n than √((n·g_0)² + (n·g_1)²) + |n·g_2|, of a
+//         cone than the greater one of n·g_2 and that root less n·g_2; in rationals.
+TEST(ConvexSet, SupportErrorsOfCylindersAndConesHold) {
+  Random random(354);
+  for (int i = 0; i < 2000; ++i) {
+    ConvexSet set;
+    set.core = i % 2 ? ConvexCore::kCylinder : ConvexCore::kCone;
+    const Eigen::Matrix3d turn = RandomRotation(random);
+    const double radius = random.LogUniform(1e-3, 1), half = random.LogUniform(1e-3, 1);
+    const double sizes[3] = {radius, radius, half};
+    for (int k = 0; k < 3; ++k) {
+      set.generators.col(k) = sizes[k] * turn.col(k);
+      set.span += (1 + 1e-15) * set.generators.col(k).norm();
+    }
+    const Vector3d n = i % 5 ? random.UnitVector() : Vector3d(i % 3 ? turn.col(2) : turn.col(0));
+    const Exact error = Exact(kSupportError * set.span);
+    const Exact reached = Dot(ExactVector(n), ExactVector(set.SupportPoint(n)));
+    const auto along = [&](int k) {
+      return Dot(ExactVector(n), ExactVector(Vector3d(set.generators.col(k))));
+    };
+    const Exact rim_square = along(0) * along(0) + along(1) * along(1);
+    const Exact axis = along(2);
+    // Whether x is at most the furthest point of the disc at the end `at` of the axis.
+    const auto up_to = [&](const Exact& x, const Exact& at) {
+      return x <= at || (x - at) * (x - at) <= rim_square;
+    };
+    const Exact end = set.core == ConvexCore::kCylinder && axis > 0 ? axis : -axis;
+    const bool apex = set.core == ConvexCore::kCone;
+    EXPECT_TRUE(up_to(reached - error, end) || (apex && reached - error <= axis)) << i;
+    EXPECT_TRUE(!up_to(reached + error, end) || reached + error == end) << i;
+    EXPECT_TRUE(!apex || reached + error >= axis) << i;
   }
 }
 

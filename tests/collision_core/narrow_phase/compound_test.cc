@@ -20,6 +20,7 @@ shape::ConvexDescription RandomSolid(Random& random, double size, double spread)
       random.Chance(0.2) ? RandomBox(random, size) : RandomPolytope(random, size);
   if (d.core == geometry::ConvexCore::kBox && random.Chance(0.5))
     d.core = geometry::ConvexCore::kEllipsoid;
+  if (d.core == geometry::ConvexCore::kBox && random.Chance(0.5)) Turn(random, &d);
   if (d.core == geometry::ConvexCore::kEllipsoid) d.rounding = 0;
   d.p_BS = spread * random.UnitVector();
   return d;

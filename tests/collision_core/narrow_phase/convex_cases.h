@@ -24,6 +24,12 @@ inline shape::ConvexDescription RandomBox(Random& random, double size) {
   return d;
 }
 
+/// Makes a cylinder or a cone of a box.
+inline void Turn(Random& random, shape::ConvexDescription* d) {
+  d->core = random.Chance(0.5) ? geometry::ConvexCore::kCylinder : geometry::ConvexCore::kCone;
+  d->half.y() = d->half.x();
+}
+
 inline shape::ConvexDescription RandomHull(Random& random, double size, std::size_t points) {
   shape::ConvexDescription d;
   d.core = geometry::ConvexCore::kHull;

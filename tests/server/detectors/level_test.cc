@@ -34,6 +34,26 @@ TEST(Level, IsBetweenThoseThatItNames) {
   EXPECT_EQ(levels[1].hysteresis, 3);
 }
 
+TEST(Level, OfWhatIsExpectedLeavesOutForecastsOfThoseThatPass) {
+  Level level;
+  detection::CollisionEvent event;
+  const auto tells = [&](v1::Level::Basis basis) {
+    level.basis = basis;
+    return level.Tells(event);
+  };
+  EXPECT_TRUE(tells(v1::Level::EXPECTED)) << "nothing is known of it";
+  using enum detection::ExpectedOutcome;
+  for (const auto& [outcome, told] :
+       {std::pair(kTouch, true), {kUndecided, true}, {kPass, false}}) {
+    event.expected.emplace().outcome = outcome;
+    event.status = detection::EventStatus::kPossible;
+    EXPECT_EQ(tells(v1::Level::EXPECTED), told);
+    EXPECT_TRUE(tells(v1::Level::POSSIBLE));
+    event.status = detection::EventStatus::kConfirmed;
+    EXPECT_TRUE(tells(v1::Level::EXPECTED));
+  }
+}
+
 TEST(Level, DetectorsShareTheBudgetOfAStep) {
   v1::Config config = CompleteConfig({});
   config.set_work_units_per_us(1);

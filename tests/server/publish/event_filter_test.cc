@@ -99,6 +99,17 @@ TEST_F(EventFilterTest, ABeginThatHardlyMovesSaysNothingNew) {
   EXPECT_EQ(Told({Possible(1, 600, 1101)}, 600), Tellings{"forecast possible 1"});
 }
 
+TEST_F(EventFilterTest, WhetherTheyAreExpectedToTouchIsNews) {
+  CollisionEvent pass = Possible(1, 0, 1000), touch = Possible(1, 10, 1000);
+  pass.expected.emplace().outcome = detection::ExpectedOutcome::kPass;
+  touch.expected.emplace().outcome = detection::ExpectedOutcome::kTouch;
+  EXPECT_EQ(Told({pass}, 0), Tellings{"forecast possible 1"});
+  EXPECT_EQ(Told({touch}, 10), Tellings{"forecast possible 1"});
+  EXPECT_EQ(Told({touch}, 20), Tellings{});
+  EXPECT_EQ(Told({pass}, 30), Tellings{"forecast possible 1"});
+  EXPECT_EQ(Told({Possible(1, 40, 1000)}, 40), Tellings{}) << "nor is it expected now";
+}
+
 TEST_F(EventFilterTest, AnEarlierBeginIsToldAlways) {
   EXPECT_EQ(Told({Possible(1, 0, 1000)}, 0), Tellings{"forecast possible 1"});
   EXPECT_EQ(Told({Possible(1, 1, 999)}, 1), Tellings{"forecast possible 1"});

@@ -40,6 +40,26 @@ TEST(Levels, BracketWhenTwoBallsComeWithinTheMarginAndPart) {
   EXPECT_TRUE(Told(events, "", v1::EVENT_CONFIRMED).empty()) << "the bodies stay 2 m apart";
 }
 
+// Goal:   a level of what is expected forecasts a pair that will cross it, and not one that could
+//         but flies by.
+// Method: an agent passes 4 m beside one and 7 m beside another one, which 5 m would cross.
+TEST(Levels, ForecastWhatIsExpected) {
+  v1::Config config = TwentyAStep();
+  AddLevel("possible", 3, &config);
+  AddLevel("expected", 3, &config)->set_basis(v1::Level::EXPECTED);
+  std::vector<Flyer> flyers = Passing();
+  flyers.push_back(AtRest(Ball(2), 0, 11));
+  std::map<std::string, std::set<std::uint32_t>> forecast;
+  for (const v1::CollisionEvent& event : Fly(config, flyers, 6)) {
+    if (event.status() != v1::EVENT_POSSIBLE || event.level().empty()) continue;
+    const bool with_first = event.lower().slot() == 0 && event.higher().slot() == 1;
+    forecast[event.level()].insert(with_first ? 0 : event.lower().slot() + event.higher().slot());
+  }
+  EXPECT_TRUE(forecast["possible"].contains(3)) << "of slots 1 and 2";
+  EXPECT_TRUE(forecast["expected"].contains(0));
+  EXPECT_FALSE(forecast["expected"].contains(3));
+}
+
 // Goal:   boxes count from their faces: a level of 1.5 m is crossed where the gap is 1.5 m.
 // Method: cubes of 2 m whose faces are 18 m apart and close in at 4 m/s.
 TEST(Levels, AreExactForShapes) {

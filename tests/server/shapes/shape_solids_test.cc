@@ -128,7 +128,11 @@ struct Spoilt {
 TEST(ShapeSolids, EachBadNumberIsNamed) {
   const Spoilt cases[] = {
       {"kind is 0; allowed are 1 (ball)", [](auto* s) { s->kind = SolidKind{0}; }},
-      {"kind is 6; allowed are 1 (ball)", [](auto* s) { s->kind = SolidKind{6}; }},
+      {"kind is 8; allowed are 1 (ball)", [](auto* s) { s->kind = SolidKind{8}; }},
+      {"half_extents.y is 0.5; allowed is the radius, as in x: 0.25",
+       [](auto* s) {
+         s->kind = SolidKind::kCone, s->half_extents = {0.25, 0.5, 1};
+       }},
       {"kind is 4294967295; allowed", [](auto* s) { s->kind = SolidKind{0xffffffff}; }},
       {"half_extents.x is nan; allowed are 0 to", [](auto* s) { s->half_extents[0] = kNan; }},
       {"half_extents.y is -1; allowed are 0 to", [](auto* s) { s->half_extents[1] = -1; }},

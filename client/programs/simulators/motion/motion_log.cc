@@ -60,10 +60,10 @@ void MotionLog::WriteMesh(const std::string& name, const Triangles& triangles) {
 }
 
 void MotionLog::WriteSolid(const std::string& name, const Solid& solid) {
-  if (solid.kind == Solid::Kind::kEllipsoid) {
-    throw BadInput(
-        "a motion log cannot hold an ellipsoid: the checker knows balls, "
-        "capsules, boxes and hulls");
+  if (solid.kind == Solid::Kind::kEllipsoid || solid.kind == Solid::Kind::kCylinder ||
+      solid.kind == Solid::Kind::kCone) {
+    throw BadInput(std::string("a motion log cannot hold a solid of the kind ") + Name(solid.kind) +
+                   ": the checker knows balls, capsules, boxes and hulls");
   }
   file_ << "solid " << name << ' ' << Name(solid.kind);
   Write(solid.rounding_m, &file_);
