@@ -19,8 +19,8 @@ struct Solid {
   enum class Kind { kBall, kCapsule, kBox, kEllipsoid, kHull, kCylinder, kCone };
 
   Kind kind = Kind::kBall;
-  /// Box: half extents. Ellipsoid: half axes. Capsule: z is half its axis without the caps. Cylinder
-  /// and cone: x and y are the radius, z is half the length.
+  /// Box: half extents. Ellipsoid: half axes. Capsule: z is half its axis without the caps.
+  /// Cylinder and cone: x and y are the radius, z is half the length.
   Vector3 half_extents_m{};
   double rounding_m = 0;               ///< Ball and capsule: the radius.
   std::vector<Vector3> points_m = {};  ///< Hull: in any order; inner points are allowed.

@@ -24,8 +24,8 @@ Violations CheckEvents(const Evidence& evidence);
 
 /// What an event says about the bodies at one instant holds there: the separation bracket contains
 /// the true distance, the depth does not exceed the true one, the point is as near to both as its
-/// error says, the normal is a unit vector. The closest approach of a dismissed or ended event is that
-/// of the true motions. (geometry_check.cc)
+/// error says, the normal is a unit vector. The closest approach of a dismissed or ended event is
+/// that of the true motions. (geometry_check.cc)
 Violations CheckGeometry(const Evidence& evidence);
 
 /// A crossing of a level that is told took place: at the ends of its brackets the bodies are within

@@ -88,14 +88,14 @@ class Claim {
     return "";
   }
 
-  const v1::Proximity& proximity_;
+  const v1::PairProximity& proximity_;
   Body a_;
   Body b_;
   bool balls_;
 };
 
 bool SameClaim(const v1::CollisionEvent& event, const v1::CollisionEvent& other) {
-  const v1::Proximity &x = event.proximity(), &y = other.proximity();
+  const v1::PairProximity &x = event.proximity(), &y = other.proximity();
   return x.at_ns() == y.at_ns() && x.separation_m().lower() == y.separation_m().lower() &&
          x.separation_m().upper() == y.separation_m().upper() &&
          x.point_m().x() == y.point_m().x() && x.point_error_m() == y.point_error_m();

@@ -89,7 +89,7 @@ std::shared_ptr<const geometry::ConvexPoints> SetPoints(const ConvexDescription&
   return points;
 }
 
-/// Corners in the body frame, none where the surface is curved; off by less than kSupportError span.
+/// Corners in the body frame, none where it is curved; off by less than kSupportError span.
 std::vector<Vector3d> CornersOf(const geometry::ConvexSet& set) {
   std::vector<Vector3d> corners;
   const auto add = [&](const Vector3d& seen) { corners.push_back(set.centre + seen); };

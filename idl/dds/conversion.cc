@@ -163,9 +163,9 @@ FIELDS(EarliestIntersection,
 
 FIELDS(AgentLabel, TEXT(simulator_name) TEXT(agent_name) TEXT(assembly) LIST(tags, wire::kTagsMax))
 
-FIELDS(Normal, MESSAGE(direction) VALUE(error_rad))
+FIELDS(SurfaceNormal, MESSAGE(direction) VALUE(error_rad))
 FIELDS(RelativeVelocity, MESSAGE(velocity_m_s) VALUE(error_m_s))
-FIELDS(Proximity,
+FIELDS(PairProximity,
        VALUE(at_ns) MESSAGE(separation_m) VALUE(depth_lower_m) MESSAGE(point_m)
        VALUE(point_error_m) OPTIONAL(normal) OPTIONAL_VALUE(lower_part)
        OPTIONAL_VALUE(higher_part) OPTIONAL(relative_velocity))

@@ -35,8 +35,8 @@ v1::Bracket Encode(double lower, double upper) {
   return wire;
 }
 
-v1::Proximity ProximityOf(const detection::CollisionEvent& event) {
-  v1::Proximity wire;
+v1::PairProximity ProximityOf(const detection::CollisionEvent& event) {
+  v1::PairProximity wire;
   wire.set_at_ns(event.evaluated_at.nanoseconds());
   *wire.mutable_separation_m() = Encode(event.separation_lower, event.separation_upper);
   wire.set_depth_lower_m(event.depth_lower);

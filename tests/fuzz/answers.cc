@@ -32,7 +32,7 @@ void CheckVector(const v1::Vector3& vector, const Shown& text) {
   }
 }
 
-void CheckProximity(const v1::Proximity& proximity, const Shown& text) {
+void CheckProximity(const v1::PairProximity& proximity, const Shown& text) {
   const v1::Bracket& separation = proximity.separation_m();
   Require(separation.lower() <= separation.upper(), "separation is not ordered: ", text);
   Require(proximity.depth_lower_m() >= 0 && std::isfinite(proximity.depth_lower_m()),

@@ -1,5 +1,5 @@
-// Goal:   one encoded sample of every topic's type stays the same, byte by byte: whatever changes an
-//         encoding is noticed, and goes with another WIRE_REVISION.
+// Goal:   one encoded sample of every topic's type stays the same, byte by byte: whatever changes
+//         an encoding is noticed, and goes with another WIRE_REVISION.
 // Method: each message filled from a fixed seed with every list and text at its bound, so that no
 //         field is left out, written to a reader on loopback, which hands out the bytes of the
 //         wire (CDR); golden_samples.txt holds their number and SHA-256.

@@ -21,8 +21,8 @@ struct Golden {
   v1::Config::TreeBuilder builder;
   std::uint64_t hash;
 };
-constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0x7278b3b7bd3165f5},
-                              {v1::Config::FITTED, 0xd4c53de07efd600e}};
+constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0x1e2ef4a8900c1d5a},
+                              {v1::Config::FITTED, 0xd7a78b0261bba0c8}};
 
 constexpr std::int64_t kEnd = 8 * kSecond;
 

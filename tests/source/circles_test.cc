@@ -224,8 +224,9 @@ TEST(SubRooms, DependInOneOrder) {
         "index", "face_sweep", "adaptive_broad_phase"}},
       {"narrow_phase/",
        {"pose", "convex_pair", "sphere_pairs", "separation", "advancement", "penetration",
-        "contact"}},
-      {"detection/", {"step", "events", "agents", "pairs", "clearance", "earliest", "detector"}},
+        "contact", "approach"}},
+      {"detection/",
+       {"step", "events", "agents", "encounter", "pairs", "clearance", "earliest", "detector"}},
       {"detection/clearance/",
        {"keys", "search", "clearance_filter", "key_lowering", "clearance_queries", "clearances"}}};
   for (const Order& order : orders) {

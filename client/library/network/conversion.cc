@@ -65,7 +65,7 @@ SimulatorStatus SimulatorStatusOf(const v1::SimulatorStatus& message) {
   return status;
 }
 
-Proximity ProximityOf(const v1::Proximity& message) {
+Proximity ProximityOf(const v1::PairProximity& message) {
   Proximity proximity;
   proximity.at_ns = message.at_ns();
   proximity.separation_lower_m = message.separation_m().lower();

@@ -93,7 +93,7 @@ void AddFinite(double value, std::vector<double>* values) {
 // Adds what an event claims about the bodies at one instant.
 void AddClaim(const v1::CollisionEvent& event, ShapeFigures* figures) {
   if (!event.has_proximity()) return;
-  const v1::Proximity& proximity = event.proximity();
+  const v1::PairProximity& proximity = event.proximity();
   AddFinite(proximity.separation_m().upper() - proximity.separation_m().lower(),
             &figures->separation_widths_m);
   AddFinite(proximity.point_error_m(), &figures->point_errors_m);

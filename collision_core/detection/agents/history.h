@@ -72,8 +72,8 @@ class History {
   /// The sample in force at `t`, if every later one follows from it; else nullptr.
   const Sample* Uninterrupted(Instant t) const;
 
-  /// The newest sample stamped at or before `t`, from which what is known of `t` follows; nullptr if
-  /// there is none, or the bound was broken between it and the next one.
+  /// The newest sample stamped at or before `t`, from which what is known of `t` follows; nullptr
+  /// if there is none, or the bound was broken between it and the next one.
   const Sample* SampleAt(Instant t) const;
 
   /// Calls `use` with the last bound of each motion since `from`: a jump or a breach begins a new

@@ -94,8 +94,8 @@ class ShapeMotion {
 
   double size() const { return surface_a_.reach() + surface_b_.reach(); }
 
-  /// A lower bound of the distance of the surfaces throughout [from, to], which contains the instant
-  /// of `query`; -infinity where it does not follow that they stay apart. Requires
+  /// A lower bound of the distance of the surfaces throughout [from, to], which contains the
+  /// instant of `query`; -infinity where it does not follow that they stay apart. Requires
   /// CheckContainment().
   double DistanceOver(const PoseQuery& query, double from, double to) const;
 

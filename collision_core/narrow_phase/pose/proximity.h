@@ -34,8 +34,8 @@ struct Proximity {
   /// balls; zero where there is none. Within `normal_error` [rad]; π says nothing.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double normal_error = std::numbers::pi;
-  /// The triangle or solid of each body that touches there, or is nearest; none of a ball, and where
-  /// only balls of the trees were compared.
+  /// The triangle or solid of each body that touches there, or is nearest; none of a ball, and
+  /// where only balls of the trees were compared.
   std::optional<ElementIndex> element_A, element_B;
   std::uint32_t level = 0;  ///< The deepest level of the sphere trees that was opened.
   BracketLimit limited_by = BracketLimit::kMotion;

@@ -45,7 +45,7 @@ class MotionLog {
   explicit MotionLog(const std::string& path);
 
   /// Without a shape the agent is a ball. A shape is written before its first agent. Throws
-  /// BadInput (command_line.h) for an ellipsoid, a cylinder or a cone, which the checker does not know.
+  /// BadInput (command_line.h) for an ellipsoid, a cylinder or a cone: the checker knows none.
   void Agent(const std::string& name, double radius_m,
              const std::shared_ptr<const Shape>& shape = nullptr);
 

@@ -85,7 +85,7 @@ class SchemaTest : public CollisionctlTest {
 };
 
 void FillEncounter(v1::CollisionEvent* event) {
-  v1::Proximity* proximity = event->mutable_proximity();
+  v1::PairProximity* proximity = event->mutable_proximity();
   proximity->mutable_normal()->mutable_direction()->set_z(1);
   proximity->set_lower_part(3);
   proximity->mutable_relative_velocity()->set_error_m_s(0.5);
