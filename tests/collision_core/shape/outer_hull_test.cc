@@ -111,8 +111,10 @@ TEST(OuterHull, TellsThePoint) {
 
 ConvexDescription RandomSolid(Random& random) {
   ConvexDescription d;
-  d.core = static_cast<geometry::ConvexCore>(random.Below(6));
-  if (d.core == geometry::ConvexCore::kTriangle) d.core = geometry::ConvexCore::kHull;
+  using enum geometry::ConvexCore;
+  constexpr geometry::ConvexCore kCores[] = {kPoint,    kSegment, kBox, kEllipsoid,
+                                             kCylinder, kCone,    kHull};
+  d.core = kCores[random.Below(std::size(kCores))];
   const Vector3d half(random.Uniform(0.1, 1), random.Uniform(0.1, 1), random.Uniform(0.1, 1));
   d.half = d.core == geometry::ConvexCore::kSegment ? Vector3d(0, 0, half.z()) : half;
   if (d.core == geometry::ConvexCore::kPoint || d.core == geometry::ConvexCore::kHull)
@@ -123,6 +125,7 @@ ConvexDescription RandomSolid(Random& random) {
       d.core == geometry::ConvexCore::kPoint || d.core == geometry::ConvexCore::kSegment;
   if (is_thin) d.rounding = random.Chance(0.5) ? 0.25 : random.Uniform(0.1, 1);
   if (d.core == geometry::ConvexCore::kBox && random.Chance(0.5)) d.rounding = 0.25;
+  if (d.core == kCylinder || d.core == kCone) d.half.y() = d.half.x();
   d.q_BS = {random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1), 1};
   d.p_BS = random.Uniform(0, 3) * random.UnitVector();
   return d;

@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::int64_t kLap = 10 * kSecond;
 
-/// What a client remembers of a pair: a node of RevisionFilter's map.
-constexpr std::int64_t kRememberedPair = 160;
+/// What a client remembers of a pair: a node of RevisionFilter's map, with the name of no level.
+constexpr std::int64_t kRememberedPair = 192;
 
 /// What a World remembers of an agent: a node of AgentNames' map, with a short name.
 constexpr std::int64_t kRememberedName = 96;

@@ -100,14 +100,14 @@ TEST_F(EventFilterTest, ABeginThatHardlyMovesSaysNothingNew) {
 }
 
 TEST_F(EventFilterTest, WhetherTheyAreExpectedToTouchIsNews) {
-  CollisionEvent pass = Possible(1, 0, 1000), touch = Possible(1, 10, 1000);
+  CollisionEvent pass = Possible(1, 0, 9000), touch = Possible(1, 10, 9000);
   pass.expected.emplace().outcome = detection::ExpectedOutcome::kPass;
   touch.expected.emplace().outcome = detection::ExpectedOutcome::kTouch;
   EXPECT_EQ(Told({pass}, 0), Tellings{"forecast possible 1"});
   EXPECT_EQ(Told({touch}, 10), Tellings{"forecast possible 1"});
-  EXPECT_EQ(Told({touch}, 20), Tellings{});
-  EXPECT_EQ(Told({pass}, 30), Tellings{"forecast possible 1"});
-  EXPECT_EQ(Told({Possible(1, 40, 1000)}, 40), Tellings{}) << "nor is it expected now";
+  EXPECT_EQ(Told({touch}, 2000), Tellings{});
+  EXPECT_EQ(Told({pass}, 4000), Tellings{"forecast possible 1"});
+  EXPECT_EQ(Told({Possible(1, 0, 9000)}, 6000), Tellings{}) << "nor is it expected now";
 }
 
 TEST_F(EventFilterTest, AnEarlierBeginIsToldAlways) {
