@@ -51,11 +51,6 @@ struct Solid {
   /// The smallest convex set around the points; it may be flat or straight.
   static Solid Hull(std::vector<Vector3> points_m);
 
-  /// Below z = 0 of its frame, as far as `reach_m` from its origin along each axis: a half-space
-  /// for everything that stays within that reach. It is a hull of eight corners, so distances are
-  /// known to some 64 · 2^-53 of its size: 20 nm for a reach of 1,000 km.
-  static Solid HalfSpace(double reach_m);
-
   /// The same solid at this position and orientation in the body frame; replaces the former ones.
   Solid At(const Vector3& position, const Quaternion& turned = {1, 0, 0, 0}) const;
 

@@ -45,6 +45,12 @@ struct AgentLabel {
   std::vector<Tag> tags;
 };
 
+/// All x with normal · x <= offset_m, in W: a floor, a wall, without end.
+struct HalfSpace {
+  Vector3 normal{0, 0, 1};  ///< Out of it; of length 1 within 1e-6.
+  double offset_m = 0;
+};
+
 /// What an agent declares about itself: valid for every state until it is described anew.
 ///
 /// The service derives everything from these bounds. A bound that the motion exceeds makes the
@@ -86,6 +92,10 @@ struct AgentDescription {
   std::vector<Tag> tags = {};
   /// Its shape (client/api/shape.h), inside the ball of `radius_m`; null: the ball itself.
   std::shared_ptr<const Shape> shape = nullptr;
+  /// Its body is this half-space: then it has neither radius nor shape, never moves, and meets
+  /// every agent that can move. Of its states only the stamp and the expiry count. It cannot change
+  /// while the agent is there; the service holds at most 64.
+  std::optional<HalfSpace> half_space = {};
 };
 
 /// Where an agent is and how it moves at one instant, as its owner knows it.

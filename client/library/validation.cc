@@ -145,21 +145,52 @@ void RequireIdentifier(const char* field, const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+void CheckHalfSpace(const AgentDescription& description) {
+  const HalfSpace& half_space = *description.half_space;
+  const auto [x, y, z] = half_space.normal;
+  const double length = std::hypot(x, y, z);
+  if (!(std::abs(length - 1) <= wire::kNormalLengthTolerance)) {
+    Refuse("half_space.normal", "length " + Text(length),
+           "length 1 within " + Text(wire::kNormalLengthTolerance));
+  }
+  CheckNumber("half_space.offset_m", half_space.offset_m, -wire::kCoordinateMax,
+              wire::kCoordinateMax);
+  const auto none = [](const char* field, double told) {
+    if (told != 0) Refuse(field, Text(told), "0, or left out, of a half-space");
+  };
+  none("radius_m", description.radius_m.value_or(0));
+  none("acceleration_max_m_s2", description.acceleration_max_m_s2.value_or(0));
+  none("jerk_max_m_s3", description.jerk_max_m_s3);
+  if (description.shape) Refuse("shape", "beside half_space", "one of the two");
+}
+
+void CheckMotion(const AgentDescription& description) {
+  RequireNumber("acceleration_max_m_s2", description.acceleration_max_m_s2, kAccelerationMax,
+                "; 0 promises that its velocity never changes");
+  if (description.radius_m || !description.shape) {
+    RequireNumber("radius_m", description.radius_m, kRadiusMax,
+                  "; beside a shape it may be left out");
+  }
+}
+
+}  // namespace
+
 void Validate(const AgentDescription& description) {
   CheckText("name", description.name, 1, kNameMax);
   CheckText("assembly", description.assembly, 0, kNameMax);
   CheckTags(description.tags);
-  if (description.radius_m || !description.shape) {
-    RequireNumber("radius_m", description.radius_m, kRadiusMax,
-                  "; beside a shape it may be left out");
+  if (description.half_space) {
+    CheckHalfSpace(description);
+  } else {
+    CheckMotion(description);
   }
   CheckNumber("margin_m", description.margin_m, 0, kRadiusMax);
   if (description.margin_m > 0 && description.margin_m < wire::kMarginMin) {
     Refuse("margin_m", Text(description.margin_m),
            "0, or " + Text(wire::kMarginMin) + " to " + Text(kRadiusMax));
   }
-  RequireNumber("acceleration_max_m_s2", description.acceleration_max_m_s2, kAccelerationMax,
-                "; 0 promises that its velocity never changes");
   CheckNumber("jerk_max_m_s3", description.jerk_max_m_s3, 0, wire::kJerkMax);
   CheckDeclared("angular_acceleration_max_rad_s2", description.angular_acceleration_max_rad_s2, 0,
                 kAccelerationMax);

@@ -17,7 +17,7 @@ namespace collision::broad_phase {
 /// pairs, and half-spaces (floors, walls). It is the common base of NeighbourIndex and
 /// EarliestSweep, which query the bounds that are held.
 ///
-/// Rules and half-spaces enter a method only here. No declaration has them, so that only tests set
+/// Rules and half-spaces enter a method only here. No declaration has rules, so that only tests set
 /// them. A margin grows an agent's reach where its bound is stored (HornTable, AlphaTFaces), so
 /// that the filters know nothing of pairs; an exclusion is applied to the pairs that the filters
 /// leave (PairRules has both arguments). What declarations say of partners stands in the filters of

@@ -51,6 +51,9 @@ std::optional<AgentClearance> Detector::ClearanceOf(const AgentId& id) const {
 EarliestAnswer Detector::Earliest(std::size_t queries_max) const {
   return implementation_->Earliest(queries_max);
 }
+bool Detector::HasRoomForHalfSpace() const {
+  return implementation_->agents().half_spaces() < kHalfSpacesMax;
+}
 std::size_t Detector::agents() const { return implementation_->agents().size(); }
 std::size_t Detector::pairs_tracked() const { return implementation_->pairs().table().size(); }
 std::size_t Detector::pairs_waiting() const { return implementation_->pairs().waiting(); }

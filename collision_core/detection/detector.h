@@ -56,7 +56,7 @@ class Detector {
   Detector& operator=(Detector&&) noexcept;
   ~Detector();
 
-  /// False if `agents_max` is reached or the id is present. An agent that comes after Remove() has
+  /// False if `agents_max` is reached, HasRoomForHalfSpace() is false for one, or the id is present. An agent that comes after Remove() has
   /// another id (a new generation): the former one is evaluated a last time beside it.
   /// `effective_from`: the instant from which the clearances of other agents take account of this
   /// one. With a simulated clock it is the greatest time granted so far to any agent that this one
@@ -130,6 +130,9 @@ class Detector {
   EarliestAnswer Earliest(std::size_t queries_max = std::numeric_limits<std::size_t>::max()) const;
 
   std::size_t agents() const;
+  /// Whether another half-space can be admitted: at most kHalfSpacesMax are held, those included
+  /// that have left since the last step.
+  bool HasRoomForHalfSpace() const;
   std::size_t pairs_tracked() const;
   /// Of these, pairs that wait for their evaluation since the last step's work was used up.
   std::size_t pairs_waiting() const;

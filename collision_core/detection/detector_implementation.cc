@@ -13,6 +13,12 @@ namespace {
 /// known about the time of its stamp. For later ones, less is certain.
 constexpr double kLateness = 2;
 
+/// A half-space stays where it is, whatever its states say.
+motion::MotionState StateOf(const AgentDeclaration& declaration, const motion::MotionState& told) {
+  if (!declaration.half_space) return told;
+  return {.stamp = told.stamp, .expiry = told.expiry};
+}
+
 }  // namespace
 
 Detector::Implementation::Implementation(const DetectorOptions& options)
@@ -30,16 +36,17 @@ bool Detector::Implementation::Admit(const AgentId& id, const AgentDeclaration& 
   if (agent.is_none()) return false;
   pairs_.AddAgent(agent);
   clearances_.AddAgent(agent);
-  agents_.Store(agent, state, Link::kJumped);
+  agents_.Store(agent, StateOf(declaration, state), Link::kJumped);
   Renew(agent, {state.stamp, ClearanceCause::kAdmission, effective_from});
   return true;
 }
 
-UpdateOutcome Detector::Implementation::Update(const AgentId& id, const motion::MotionState& state,
+UpdateOutcome Detector::Implementation::Update(const AgentId& id, const motion::MotionState& told,
                                                Instant effective_from) {
   const AgentIndex agent = agents_.Find(id);
   if (agent.is_none()) return UpdateOutcome::kUnknown;
   const AgentRecord& record = agents_[agent];
+  const motion::MotionState state = StateOf(record.declaration, told);
   if (state.stamp < record.stamp()) return UpdateOutcome::kOlder;
   const NextState next{agent, state, effective_from};
   if (record.expired) return Return(next);

@@ -194,6 +194,10 @@ void SetInside(const ConvexDescription& d, const geometry::ConvexSet& set, Conve
 
 ConvexSolid ConvexSolid::Build(const ConvexDescription& d) {
   CORE_CHECK(!RefusalOf(d), "a solid has a description that is not refused");
+  return BuildOfAnySize(d);
+}
+
+ConvexSolid ConvexSolid::BuildOfAnySize(const ConvexDescription& d) {
   ConvexSolid solid;
   const numeric::Rotation rotation = RotationOf(d.q_BS);
   geometry::ConvexSet& set = solid.set_;

@@ -57,6 +57,10 @@ class ConvexSolid {
   /// Requires a description that passed RefusalOf(). Deterministic.
   static ConvexSolid Build(const ConvexDescription& description);
 
+  /// The same without the limits of sizes and places, which are there for mistakes of owners:
+  /// everything is certified beyond them too. Unchecked: the rest of RefusalOf().
+  static ConvexSolid BuildOfAnySize(const ConvexDescription& description);
+
   /// This solid and all points within `more` of it: its rounding is the sum, rounded up. Requires
   /// `more` >= 0 and finite.
   ConvexSolid Grown(double more) const;

@@ -115,6 +115,8 @@ FIELDS(SimulatorHello,
        TEXT(simulator_name) TEXT(frame) TEXT(version)
        LIST(extensions, wire::kHelloExtensionsMax))
 
+FIELDS(HalfSpace, MESSAGE(normal) VALUE(offset_m))
+
 FIELDS(AgentDescription,
        VALUE(simulator_id) VALUE(slot) VALUE(incarnation) VALUE(run) VALUE(generation)
        VALUE(revision) VALUE(sequence) VALUE(states_sequence) TEXT(simulator_name)
@@ -123,7 +125,8 @@ FIELDS(AgentDescription,
        VALUE(angular_acceleration_max_rad_s2) VALUE(speed_max_m_s)
        VALUE(time_step_s) TEXT(class_name) VALUE(margin_m) HASH(shape_hash) TEXT(assembly)
        LIST(meets_in_assembly, wire::kPartnersListedMax)
-       LIST(never_meets, wire::kPartnersListedMax) LIST(tags, wire::kTagsMax))
+       LIST(never_meets, wire::kPartnersListedMax) LIST(tags, wire::kTagsMax)
+       OPTIONAL(half_space))
 
 FIELDS(ShapePart,
        VALUE(simulator_id) VALUE(shape) VALUE(part) HASH(content_hash) VALUE(parts) VALUE(run)

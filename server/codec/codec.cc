@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "collision_core/numeric/rounding.h"
+#include "collision_core/shape/fixed_half_space.h"
 #include "collision_core/shape/grown_shape.h"
 #include "idl/identity.h"
 #include "idl/limits.h"
@@ -15,6 +16,8 @@
 namespace collision::server {
 
 static_assert(wire::kMarginMin == shape::kMarginMin);
+static_assert(wire::kNormalLengthTolerance == shape::kNormalLengthTolerance);
+static_assert(wire::kCoordinateMax == shape::kHalfSpaceOffsetMax);
 
 namespace {
 
@@ -140,6 +143,33 @@ void CheckTags(const v1::AgentDescription& wire, FieldCheck* check) {
   }
 }
 
+/// Refuses what makes no sense of a half-space.
+void CheckHalfSpace(const v1::AgentDescription& wire, FieldCheck* check) {
+  if (!wire.has_half_space()) return;
+  const Eigen::Vector3d normal = ToVector(wire.half_space().normal());
+  if (auto refusal = shape::RefusalOfHalfSpace(normal, wire.half_space().offset_m())) {
+    check->Refuse(v1::REJECTED_OUT_OF_RANGE, "half_space", *refusal);
+  }
+  const auto none = [&](const char* field, double told) {
+    if (told == 0) return;
+    check->Refuse(v1::REJECTED_OUT_OF_RANGE, field,
+                  Show(told) + "; allowed of a half-space, which never moves and has no radius: 0");
+  };
+  none("radius_m", wire.radius_m());
+  none("acceleration_max_m_s2", wire.acceleration_max_m_s2());
+  none("jerk_max_m_s3", wire.jerk_max_m_s3());
+  if (!ShapeHashOf(wire).empty()) {
+    check->Refuse(v1::REJECTED_BAD_SHAPE, "shape_hash", "a shape beside half_space; allowed: one of the two");
+  }
+}
+
+std::shared_ptr<const shape::FixedHalfSpace> HalfSpaceOf(const v1::AgentDescription& wire) {
+  if (!wire.has_half_space()) return nullptr;
+  const v1::HalfSpace& told = wire.half_space();
+  const auto half_space = shape::FixedHalfSpace::Build(ToVector(told.normal()), told.offset_m());
+  return wire.margin_m() > 0 ? half_space->Grown(wire.margin_m()) : half_space;
+}
+
 }  // namespace
 
 Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire,
@@ -177,6 +207,7 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
         v1::REJECTED_BAD_SHAPE, "shape_hash",
         std::to_string(hash.size()) + " bytes; allowed: 0 or " + std::to_string(kShapeHashBytes));
   }
+  CheckHalfSpace(wire, &check);
   if (!check.passed()) return *check.refusal();
   const double alpha = wire.angular_acceleration_max_rad_s2();
   const double cap = wire.speed_max_m_s(), margin = wire.margin_m();
@@ -189,7 +220,8 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
                                                 .angular_acceleration_max = alpha < 0 ? -1 : alpha},
                                      .filter = *filter,
                                      .margin = wire.margin_m(),
-                                     .shape_awaited = !hash.empty()};
+                                     .shape_awaited = !hash.empty(),
+                                     .half_space = HalfSpaceOf(wire)};
 }
 
 v1::AgentLabel LabelOf(const v1::AgentDescription& description) {

@@ -49,6 +49,15 @@ Refusal NotDescribed(const detection::AgentId& agent, std::string detail) {
           .detail = std::move(detail)};
 }
 
+Refusal HalfSpaceChanged(const detection::AgentId& agent) {
+  Refusal refusal = NoRoom(agent,
+                           "it cannot change while the agent is there; allowed: to remove the "
+                           "agent and to add another one");
+  refusal.reason = v1::REJECTED_OUT_OF_RANGE;
+  refusal.field = "half_space";
+  return refusal;
+}
+
 Refusal NoRoom(const detection::AgentId& agent, std::string detail) {
   return {.reason = v1::REJECTED_TOO_MANY_AGENTS,
           .topic = v1::TOPIC_AGENT_DESCRIPTION,

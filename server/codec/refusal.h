@@ -35,6 +35,9 @@ Refusal NotDescribed(const detection::AgentId& agent, std::string detail);
 /// Refuses a complete agent for which there is no room.
 Refusal NoRoom(const detection::AgentId& agent, std::string detail);
 
+/// Refuses a description that makes a half-space of an agent that was none, or another one, or none.
+Refusal HalfSpaceChanged(const detection::AgentId& agent);
+
 /// Refuses a removal that does not come from the owner.
 Refusal NotItsOwn(const v1::AgentRemoval& wire);
 Refusal NotItsOwn(const v1::ShapeRemoval& wire);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collision_core/numeric/rounding.h"
+#include "collision_core/shape/fixed_half_space.h"
 #include "collision_core/shape/grown_shape.h"
 
 namespace collision::server {
@@ -48,6 +49,7 @@ detection::AgentDeclaration GrownDetector::GrownOf(const detection::AgentId& id,
   grown.limits.radius = numeric::AddUp(declaration.limits.radius, half_margin_);
   const ShapePtr shape = declaration.shape ? Use(declaration.shape) : nullptr;
   Drop(id);
+  if (declaration.half_space) grown.half_space = declaration.half_space->Grown(half_margin_);
   if (!declaration.shape) return grown;
   grown.shape = shape;
   grown.shape_awaited = shape == nullptr;

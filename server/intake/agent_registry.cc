@@ -5,10 +5,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "collision_core/shape/fixed_half_space.h"
 #include "idl/identity.h"
 #include "server/process/logging.h"
 
 namespace collision::server {
+namespace {
+
+bool SameHalfSpace(const detection::AgentDeclaration& a, const detection::AgentDeclaration& b) {
+  if (!a.half_space || !b.half_space) return !a.half_space && !b.half_space;
+  return a.half_space->IsSameAs(*b.half_space);
+}
+
+}  // namespace
 
 AgentRegistry::AgentRegistry(const v1::Config& config, World* world, Detectors* detectors,
                              Rejections* rejections, AgentShapes* shapes)
@@ -56,6 +65,9 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
                            detection::AgentDeclaration declaration) {
   Agent* agent = simulator->agents().Find(wire.slot());
   if (wire.revision() <= agent->revision()) return;
+  if (!SameHalfSpace(agent->declaration, declaration)) {
+    return rejections_.Add(HalfSpaceChanged(simulator->IdOf(wire.slot(), wire.generation())));
+  }
   if (!world_.RunsInRounds()) KeepFormer(wire, agent);
   agent->names = names_.Complete(wire, &declaration.filter);
   simulator->agents().Revise(wire.slot(), wire.revision(), declaration);
@@ -210,24 +222,28 @@ void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
   const WaitingState* waiting = agents.Waiting(slot);
   if (agent == nullptr || agent->admitted() || waiting == nullptr) return;
   if (waiting->generation != agent->generation()) return;
-  if (!HasRoomForAgent(*simulator)) {
+  if (const auto refusal = RoomRefusal(*simulator, *agent)) {
     if (std::exchange(agent->room_refused, true)) return;
-    return rejections_.Add(NoRoom(
-        simulator->IdOf(slot, agent->generation()),
-        fmt::format("no room for another agent; allowed to this simulator now: the {} that it has "
-                    "(at most {}; of the {} of all simulators {} are used, and what others are "
-                    "guaranteed is kept)",
-                    world_.quotas().Used(simulator->id(), Resource::kAgents),
-                    world_.quotas().ShareOf(simulator->id(), Resource::kAgents).max, agents_max_,
-                    detectors_.contacts().agents())));
+    return rejections_.Add(NoRoom(simulator->IdOf(slot, agent->generation()), *refusal));
   }
   Admit(simulator, slot, agents.TakeWaiting(slot).back());
 }
 
-bool AgentRegistry::HasRoomForAgent(const Simulator& simulator) const {
+std::optional<std::string> AgentRegistry::RoomRefusal(const Simulator& simulator,
+                                                      const Agent& agent) const {
+  if (agent.declaration.half_space && !detectors_.contacts().HasRoomForHalfSpace()) {
+    return fmt::format("no room for another half-space; allowed: {} of all simulators together",
+                       detection::kHalfSpacesMax);
+  }
   const std::uint64_t free =
       agents_max_ - std::min<std::uint64_t>(agents_max_, detectors_.contacts().agents());
-  return world_.quotas().RoomFor(simulator.id(), Resource::kAgents, free) > 0;
+  if (world_.quotas().RoomFor(simulator.id(), Resource::kAgents, free) > 0) return std::nullopt;
+  return fmt::format(
+      "no room for another agent; allowed to this simulator now: the {} that it has (at most {}; "
+      "of the {} of all simulators {} are used, and what others are guaranteed is kept)",
+      world_.quotas().Used(simulator.id(), Resource::kAgents),
+      world_.quotas().ShareOf(simulator.id(), Resource::kAgents).max, agents_max_,
+      detectors_.contacts().agents());
 }
 
 void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting) {

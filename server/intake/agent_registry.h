@@ -118,7 +118,7 @@ class AgentRegistry {
   void RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent* agent);
   /// The agent leaves the detector, if it is in it.
   void Withdraw(const Simulator& simulator, std::uint32_t slot, const Agent& agent);
-  bool HasRoomForAgent(const Simulator& simulator) const;
+  std::optional<std::string> RoomRefusal(const Simulator& simulator, const Agent& agent) const;
   void CountAccepted(Simulator* simulator);
 
   const std::uint32_t agents_max_;

@@ -128,6 +128,10 @@ v1::AgentDescription ToMessage(const AgentDescription& description) {
     added.set_value(tag.value);
   }
   if (description.shape) message.set_shape_hash(description.shape->hash());
+  if (description.half_space) {
+    Set(description.half_space->normal, message.mutable_half_space()->mutable_normal());
+    message.mutable_half_space()->set_offset_m(description.half_space->offset_m);
+  }
   return message;
 }
 
@@ -199,6 +203,10 @@ DescribedAgent FromMessage(const v1::AgentDescription& message) {
   agent.description.never_meets.assign(message.never_meets().begin(), message.never_meets().end());
   agent.description.tags = TagsOf(message.tags());
   agent.shape_hash = message.shape_hash();
+  if (message.has_half_space()) {
+    agent.description.half_space = {VectorOf(message.half_space().normal()),
+                                    message.half_space().offset_m()};
+  }
   return agent;
 }
 

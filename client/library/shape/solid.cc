@@ -30,16 +30,6 @@ Solid Solid::Hull(std::vector<Vector3> points_m) {
   return {.kind = Kind::kHull, .points_m = std::move(points_m)};
 }
 
-Solid Solid::HalfSpace(double reach_m) {
-  std::vector<Vector3> corners;
-  for (const double x : {-reach_m, reach_m}) {
-    for (const double y : {-reach_m, reach_m}) {
-      for (const double z : {-reach_m, 0.0}) corners.push_back({x, y, z});
-    }
-  }
-  return Hull(std::move(corners));
-}
-
 Solid Solid::At(const Vector3& position, const Quaternion& turned) const {
   Solid placed = *this;
   placed.position_m = position;

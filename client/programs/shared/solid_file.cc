@@ -30,8 +30,6 @@ Solid CoreOf(const v1::ConvexSolid& message) {
       for (const v1::Vector3& point : message.hull().points_m()) points.push_back(VectorOf(point));
       return Solid::Hull(std::move(points));
     }
-    case v1::ConvexSolid::kHalfSpace:
-      return Solid::HalfSpace(message.half_space().reach_m());
     case v1::ConvexSolid::CORE_NOT_SET:
       break;
   }
@@ -62,7 +60,7 @@ std::vector<Solid> ReadSolids(const std::string& path) {
     if (solid.core_case() == v1::ConvexSolid::CORE_NOT_SET) {
       throw BadInput(path + ": solids[" + std::to_string(solids.size()) +
                      "]: core is missing; allowed are ball, capsule, box, ellipsoid, "
-                     "cylinder, cone, hull and half_space");
+                     "cylinder, cone and hull");
     }
     solids.push_back(SolidOf(solid));
   }

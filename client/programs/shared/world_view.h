@@ -58,6 +58,11 @@ struct ShapeView {
   std::optional<std::uint32_t> solids;     ///< Convex solids, likewise.
 };
 
+/// Whether it is the description of an agent: every body has a radius, or is a half-space.
+inline bool IsDescribed(const v1::AgentDescription& description) {
+  return description.radius_m() > 0 || description.has_half_space();
+}
+
 /// Takes messages in any order and keeps the newest of each kind. The callbacks refer to the view,
 /// which must outlive the monitor that holds them and must not move.
 class WorldView {

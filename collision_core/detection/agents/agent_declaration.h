@@ -4,13 +4,18 @@
 #include <memory>
 
 #include "collision_core/broad_phase/agent_bound.h"
+#include "collision_core/broad_phase/half_space.h"
 #include "collision_core/motion/motion_state.h"
 
 namespace collision::shape {
+class FixedHalfSpace;
 class Shape;
 }  // namespace collision::shape
 
 namespace collision::detection {
+
+/// The most half-spaces at a time.
+inline constexpr std::size_t kHalfSpacesMax = broad_phase::HalfSpaces::kCountMax;
 
 /// What an owner declares about an agent once, and what then holds from state to state. A change
 /// that promises less (a larger radius or M, another shape, a filter that keeps
@@ -27,6 +32,10 @@ struct AgentDeclaration {
   /// The shape is not known yet: it lies somewhere within the ball. The ball then excludes contacts
   /// but confirms none. Requires that `shape` is null.
   bool shape_awaited = false;
+  /// The body is this half-space, without end, which `margin` has grown already; null: it is not.
+  /// It is the same in each declaration of the agent. Then there is no shape, the limits do not
+  /// count, and of its states only stamp and expiry do.
+  std::shared_ptr<const shape::FixedHalfSpace> half_space = nullptr;
 };
 
 }  // namespace collision::detection

@@ -34,6 +34,7 @@ struct AgentRecord {
   bool shape_redeclared = false;  ///< The shape was declared anew since the newest state.
   SceneProfile::Features features = 0;
 
+  bool is_half_space() const { return declaration.half_space != nullptr; }
   const motion::SpaceTimeBound& bound() const { return history.newest().bound; }
   Instant stamp() const { return bound().state.stamp; }
   /// The owner has reported everything about the agent up to here: no state before it will come.

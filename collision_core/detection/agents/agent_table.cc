@@ -23,6 +23,9 @@ AgentIndex AgentTable::Admit(const AgentId& id, const AgentDeclaration& declarat
                              Instant stamp) {
   CORE_CHECK(!declaration.shape || !declaration.shape_awaited, "an awaited shape is null");
   if (index_.size() >= limits_.agents_max || index_.contains(id)) return AgentIndex::None();
+  const bool endless = declaration.half_space != nullptr;
+  if (endless && half_spaces_ == kHalfSpacesMax) return AgentIndex::None();
+  half_spaces_ += endless;
   AgentIndex agent(agents_.size());
   if (free_.empty()) {
     agents_.emplace_back();
@@ -34,6 +37,7 @@ AgentIndex AgentTable::Admit(const AgentId& id, const AgentDeclaration& declarat
   AgentRecord& record = (*this)[agent];
   record.id = id;
   record.declaration = declaration;
+  if (endless) record.declaration.limits = {};
   record.reported_until = stamp;
   record.admitted_from = stamp;
   Owner& owner = owners_[OwnerOf(id)];
@@ -56,7 +60,8 @@ void AgentTable::Store(AgentIndex agent, const motion::MotionState& state, Link 
                        .filter = declared.filter,
                        .shape = declared.shape,
                        .shape_awaited = declared.shape_awaited,
-                       .link = link},
+                       .link = link,
+                       .half_space = declared.half_space},
                       limits_.history_max);
   record.shape_redeclared = false;
   record.reported_until = std::max(record.reported_until, state.stamp);
@@ -129,6 +134,7 @@ std::vector<AgentIndex> AgentTable::TakeExpired(Instant now) {
 void AgentTable::Release(AgentIndex agent) {
   CORE_CHECK((*this)[agent].removal != 0, "only a removed agent is released", agent.value());
   expiries_.Remove(agent);
+  half_spaces_ -= (*this)[agent].is_half_space();
   agents_[agent.value()].reset();
   free_.push_back(agent);
 }
@@ -145,6 +151,7 @@ void AgentTable::Validate() const {
   expiries_.Validate();
   changed_.Validate();
   std::size_t named = 0;
+  std::size_t half_spaces = 0;
   std::map<OwnerId, std::uint32_t> counts;
   SceneProfile profile;
   for (std::size_t k = 0; k < agents_.size(); ++k) {
@@ -155,6 +162,7 @@ void AgentTable::Validate() const {
     }
     const AgentRecord& record = (*this)[agent];
     CORE_CHECK(!record.history.empty(), "an agent has a state", k);
+    half_spaces += record.is_half_space();
     CORE_CHECK(record.stamp() <= record.heard_until(),
                "no state is newer than what its owner has reported", k);
     if (record.removal != 0) {
@@ -172,6 +180,7 @@ void AgentTable::Validate() const {
     CORE_CHECK(Find(record.id) == agent, "an agent is found by its name", k);
     CORE_CHECK(record.owner != nullptr, "an agent has an owner", k);
   }
+  CORE_CHECK(half_spaces == half_spaces_, "half-spaces are counted", half_spaces, half_spaces_);
   CORE_CHECK(named == index_.size(), "each name is of one agent", named, index_.size());
   ValidateFreeList(
       free_, agents_.size(), [](AgentIndex agent) { return agent.value(); },

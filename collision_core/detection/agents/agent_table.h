@@ -31,8 +31,8 @@ class AgentTable {
  public:
   explicit AgentTable(const AgentLimits& limits) : limits_(limits) {}
 
-  /// The index of a new agent without any state yet. None() if `agents_max` is reached or the id is
-  /// present. Requires that an awaited shape is null. Unchecked: Store() follows before anything
+  /// The index of a new agent without any state yet. None() if `agents_max` is reached, kHalfSpacesMax
+  /// for a half-space, those that leave included, or if the id is present. Requires that an awaited shape is null. Unchecked: Store() follows before anything
   /// else is asked about the agent.
   AgentIndex Admit(const AgentId& id, const AgentDeclaration& declaration, Instant stamp);
 
@@ -46,6 +46,7 @@ class AgentTable {
   const AgentRecord& operator[](AgentIndex agent) const { return *Checked(agent); }
   /// Agents that have a name.
   std::size_t size() const { return index_.size(); }
+  std::size_t half_spaces() const { return half_spaces_; }
   /// One more than the greatest index ever used.
   std::size_t index_end() const { return agents_.size(); }
 
@@ -113,6 +114,7 @@ class AgentTable {
   std::vector<AgentIndex> free_;
   std::map<OwnerId, Owner> owners_;
   std::uint64_t removals_ = 0;
+  std::size_t half_spaces_ = 0;
   EventQueue<AgentIndex> expiries_;
   IndexSet<AgentIndex> changed_;  // since the last step
   SceneExtremes extremes_;

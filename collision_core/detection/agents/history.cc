@@ -169,7 +169,9 @@ narrow_phase::BodySegment History::Over(Instant from, Instant to) const {
   const numeric::Interval spread =
       numeric::Interval(std::max(last.limits.radius, next.limits.radius)) - ball.radius;
   if (sample.shape == next_sample.shape) segment.shape = sample.shape;
-  segment.awaited = !segment.shape && (sample.has_shape() || next_sample.has_shape());
+  segment.half_space = sample.half_space;
+  segment.awaited = !segment.shape && !segment.half_space &&
+                    (sample.has_shape() || next_sample.has_shape());
   last.limits = next.limits = Widest(last.limits, next.limits);
 
   const bool broken = has_next && samples_[k + 1].link == Link::kBroken;
@@ -184,6 +186,12 @@ narrow_phase::BodySegment History::Over(Instant from, Instant to) const {
   }
   for (numeric::MovingBall& bound : ball.bounds) bound.u.c0 = bound.u.c0 + spread;
   return segment;
+}
+
+narrow_phase::BodyPair BothOver(const History& a, const History& b, Instant from, Instant to) {
+  narrow_phase::BodyPair bodies{a.Over(from, to), b.Over(from, to)};
+  ReplaceHalfSpace(numeric::SecondsBetween(from, to).upper, &bodies);
+  return bodies;
 }
 
 }  // namespace collision::detection

@@ -30,9 +30,10 @@ class History {
     std::shared_ptr<const shape::Shape> shape = nullptr;  ///< As in AgentDeclaration.
     bool shape_awaited = false;                           ///< Likewise.
     Link link = Link::kFollows;
+    std::shared_ptr<const shape::FixedHalfSpace> half_space = nullptr;  ///< Likewise.
 
-    /// Whether the agent has a shape, known or not.
-    bool has_shape() const { return shape != nullptr || shape_awaited; }
+    /// Whether the agent is more than a ball: it has a shape, known or not, or is a half-space.
+    bool has_shape() const { return shape != nullptr || shape_awaited || half_space != nullptr; }
   };
 
   void Clear() { samples_.clear(); }
@@ -109,5 +110,9 @@ class History {
 
   std::vector<Sample> samples_;
 };
+
+/// What is certain of two agents on [from, to], where no cut of either lies strictly between. Of a
+/// half-space it is the block that stands in for it.
+narrow_phase::BodyPair BothOver(const History& a, const History& b, Instant from, Instant to);
 
 }  // namespace collision::detection

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "collision_core/broad_phase/agent_bound.h"
+#include "collision_core/broad_phase/half_space.h"
 #include "collision_core/detection/agents/detector_context.h"
 
 namespace collision::detection {
@@ -19,6 +20,9 @@ struct QueriedAgent {
   const motion::SpaceTimeBound& bound;
   const broad_phase::CollisionFilter& filter;
 };
+
+/// Where the broad phase finds the agent. Requires agent.is_half_space().
+broad_phase::HalfSpace HalfSpaceOf(const AgentRecord& agent);
 
 /// The queries of the detector about single pairs.
 ///
@@ -41,10 +45,12 @@ class PairQueries {
   /// The same under the wide bounds, from which clearance keys are computed.
   Instant EarliestOfWide(AgentIndex a, AgentIndex b, Instant from) const;
 
-  /// The same under bounds of the caller's choice.
+  /// The same under bounds of the caller's choice. A half-space is where it is, whatever its bound.
   Instant EarliestUnder(const QueriedAgent& a, const QueriedAgent& b, Instant from) const;
 
  private:
+  Instant EarliestAt(const AgentRecord& half_space, const QueriedAgent& agent, Instant from) const;
+
   const AgentTable& agents_;
   DetectorCounters* counters_;
 };

@@ -46,6 +46,11 @@ void ClearanceFilter::Set(AgentIndex agent, const motion::SpaceTimeBound& bound)
   row.known_rate = row.bends ? state.a_WA.norm() * (skew_ + 0.5 * limits.time_step) : 0;
 }
 
+void ClearanceFilter::SetEndless(AgentIndex agent) {
+  Set(agent, {});
+  rows_[agent].reach = numeric::kInfinity;
+}
+
 bool ClearanceFilter::CertainlyLater(AgentIndex agent, AgentIndex partner, Instant until) const {
   const Row &a = rows_.at(agent), &b = rows_.at(partner);
   const Instant from = std::max(a.stamp, b.stamp);

@@ -21,6 +21,9 @@ class ClearanceFilter {
   /// The bound that keys are computed from: wide, and after a jump with the motion before it.
   void Set(AgentIndex agent, const motion::SpaceTimeBound& bound);
 
+  /// The agent is a half-space, of which nothing is certain here.
+  void SetEndless(AgentIndex agent);
+
   /// True only if no motions within the two bounds bring them together before `until`. Usually true
   /// if they stay well apart until then. Requires Set() of both.
   bool CertainlyLater(AgentIndex agent, AgentIndex partner, Instant until) const;

@@ -25,9 +25,16 @@ void Clearances::AddAgent(AgentIndex agent) {
 }
 
 void Clearances::Renew(AgentIndex agent, const Renewal& renewal) {
-  const broad_phase::AgentBound wide = context_.agents[agent].wide_bound();
-  broad_phase_.Set(agent.value(), wide);
-  filter_.Set(agent, wide.bound);
+  const AgentRecord& record = context_.agents[agent];
+  if (record.is_half_space()) {
+    const bool held = broad_phase_.SetHalfSpace(agent.value(), HalfSpaceOf(record));
+    CORE_CHECK(held, "there is room for each half-space that was admitted", agent.value());
+    filter_.SetEndless(agent);
+  } else {
+    const broad_phase::AgentBound wide = record.wide_bound();
+    broad_phase_.Set(agent.value(), wide);
+    filter_.Set(agent, wide.bound);
+  }
   coverage_.Renew(agent, renewal.from, renewal.cause);
   reported_.SetEffectiveFrom(agent, renewal.effective_from);
   reported_.RecordRenewal(agent);
@@ -40,6 +47,7 @@ void Clearances::NotifyPartners(AgentIndex agent) {
 }
 
 void Clearances::Tighten(AgentIndex agent) {
+  if (context_.agents[agent].is_half_space()) return;
   const broad_phase::AgentBound wide = context_.agents[agent].wide_bound();
   broad_phase_.Tighten(agent.value(), wide);
   filter_.Set(agent, wide.bound);
@@ -73,9 +81,12 @@ void Clearances::Validate() const {
   for (std::size_t k = 0; k < context_.agents.index_end(); ++k) {
     const AgentIndex agent(k);
     const bool counts = context_.agents.Contains(agent) && !context_.agents[agent].expired;
-    CORE_CHECK(broad_phase_.Contains(agent.value()) == counts,
+    const bool endless = broad_phase_.half_spaces().Find(agent.value()) != nullptr;
+    CORE_CHECK((broad_phase_.Contains(agent.value()) || endless) == counts,
                "the broad phase holds an agent until it expires", k);
-    held += counts;
+    CORE_CHECK(!counts || endless == context_.agents[agent].is_half_space(),
+               "the broad phase holds a half-space as one", k);
+    held += counts && !endless;
   }
   CORE_CHECK(broad_phase_.agents() == held, "the broad phase holds no agent that is not there",
              broad_phase_.agents(), held);

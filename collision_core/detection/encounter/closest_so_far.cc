@@ -42,7 +42,7 @@ std::uint64_t FollowClosest(const History& a, const History& b, Instant until,
   while (at < until) {
     const Instant from = at;
     at = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
-    const narrow_phase::BodySegment of_a = a.Over(from, at), of_b = b.Over(from, at);
+    const auto [of_a, of_b] = BothOver(a, b, from, at);
     const bool balls = of_a.is_ball() && of_b.is_ball();
     if (touching && !balls) continue;
     if (of_a.ball.bounds.empty() || of_b.ball.bounds.empty()) {

@@ -38,8 +38,11 @@ std::optional<Expectation> ExpectationOf(const History& a, const History& b, Ins
   const Instant until = std::min(
       {numeric::AddRoundedDown(from, ahead), of_a.bound.state.expiry, of_b.bound.state.expiry});
   if (until <= from) return std::nullopt;
-  const narrow_phase::BodyPair bodies = SegmentsOf(Kept(of_a), Kept(of_b), from);
+  narrow_phase::BodyPair bodies = SegmentsOf(Kept(of_a), Kept(of_b), from);
+  bodies.a.half_space = of_a.half_space;
+  bodies.b.half_space = of_b.half_space;
   const double duration = numeric::SecondsBetween(from, until).upper;
+  ReplaceHalfSpace(duration, &bodies);
   const auto bracket = [from](const numeric::Interval& seconds) {
     return TimeBracket{numeric::AddRoundedDown(from, seconds.lower),
                        numeric::AddRoundedUp(from, seconds.upper)};

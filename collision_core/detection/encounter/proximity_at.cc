@@ -19,8 +19,7 @@ narrow_phase::Proximity ProximityOfAwaited(narrow_phase::Proximity of_balls) {
 narrow_phase::Proximity ProximityAt(const History& a, const History& b, Instant at,
                                     WorkBudget* work) {
   work->Spend(1);
-  const narrow_phase::BodySegment of_a = a.Over(at, at);
-  const narrow_phase::BodySegment of_b = b.Over(at, at);
+  const auto [of_a, of_b] = BothOver(a, b, at, at);
   if (of_a.is_ball() && of_b.is_ball()) return BallProximity(of_a.ball, of_b.ball, 0);
   if (of_a.awaited || of_b.awaited) {
     return ProximityOfAwaited(BallProximity(of_a.ball, of_b.ball, 0));

@@ -38,7 +38,7 @@ narrow_phase::ContactNormal NormalBefore(const History& a, const History& b, Ins
   if (of_a.is_never() || of_b.is_never()) return {};
   const Instant before = std::max(of_a, of_b);
   const Instant to = std::min({from, a.NextCutAfter(before), b.NextCutAfter(before)});
-  const narrow_phase::BodySegment body_a = a.Over(before, to), body_b = b.Over(before, to);
+  const auto [body_a, body_b] = BothOver(a, b, before, to);
   if (body_a.awaited || body_b.awaited || (body_a.is_ball() && body_b.is_ball())) return {};
   return NormalAt(body_a, body_b, 0, work);
 }
@@ -47,7 +47,7 @@ narrow_phase::ContactNormal NormalBefore(const History& a, const History& b, Ins
 bool EvaluateOne(const History& history_a, const History& history_b, Instant to, WorkBudget* work,
                  ContactTracker* tracker) {
   const Instant from = tracker->at();
-  const narrow_phase::BodySegment a = history_a.Over(from, to), b = history_b.Over(from, to);
+  const auto [a, b] = BothOver(history_a, history_b, from, to);
   const double duration = numeric::SecondsBetween(from, to).upper;
   const bool balls = a.is_ball() && b.is_ball();
   const bool bounded = work->when_exhausted() == WhenExhausted::kLeaveUndecided;
@@ -117,7 +117,10 @@ SegmentCount EvaluateSegments(const History& a, const History& b, Instant until,
 }
 
 bool HaveKnownShapes(const History& a, const History& b) {
-  return a.newest().shape || b.newest().shape;
+  const auto is_known = [](const History::Sample& newest) {
+    return newest.shape || newest.half_space;
+  };
+  return is_known(a.newest()) || is_known(b.newest());
 }
 
 Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instant until,
@@ -126,8 +129,7 @@ Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instan
              "the newest bounds hold from their states on", from.nanoseconds());
   until = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
   if (until <= from) return from;
-  const narrow_phase::BodySegment of_a = a.Over(from, until);
-  const narrow_phase::BodySegment of_b = b.Over(from, until);
+  const auto [of_a, of_b] = BothOver(a, b, from, until);
   if (of_a.awaited || of_b.awaited || (of_a.is_ball() && of_b.is_ball())) return from;
   const double duration = numeric::SecondsBetween(from, until).upper;
   const double free = FreeAhead(of_a, of_b, 0, duration, work);

@@ -21,7 +21,8 @@ struct SegmentCount {
 SegmentCount EvaluateSegments(const History& a, const History& b, Instant until, WorkBudget* work,
                               ContactTracker* tracker);
 
-/// Whether the shape of either newest state is known; an awaited shape does not count.
+/// Whether the shape of either newest state is known, or it is a half-space; an awaited shape does
+/// not count.
 bool HaveKnownShapes(const History& a, const History& b);
 
 /// Up to when, at most `until`, the shapes are certified apart for all motions within the newest

@@ -8,15 +8,17 @@
 
 namespace collision::detection {
 
-void PairTable::AddAgent(AgentIndex agent, const OwnerId& owner) {
+void PairTable::AddAgent(AgentIndex agent, const OwnerId& owner, bool unlimited) {
   if (!of_agent_.contains(agent)) {
     of_agent_.resize(agent.value() + 1);
     idle_of_agent_.resize(agent.value() + 1);
+    most_of_.resize(agent.value() + 1);
     full_.resize(agent.value() + 1);
     owner_of_.resize(agent.value() + 1);
   }
   CORE_CHECK(of_agent_[agent].empty(), "a new agent has no pairs", agent.value());
   owner_of_[agent] = owners_.Enter(owner);
+  most_of_[agent] = unlimited ? pairs_max_ : pairs_per_agent_max_;
   UpdateFull(agent);
 }
 
@@ -90,18 +92,19 @@ std::vector<PairSlot> PairTable::TakeIdle(AgentIndex agent) {
 
 std::size_t PairTable::RoomFor(AgentIndex agent) const {
   const std::size_t taken = Of(agent).size();
-  if (taken >= pairs_per_agent_max_) return 0;
-  return std::min<std::size_t>(pairs_per_agent_max_ - taken, OwnersRoom(agent));
+  const std::uint32_t most = most_of_[agent];
+  if (taken >= most) return 0;
+  return std::min<std::size_t>(most - taken, OwnersRoom(agent));
 }
 
 void PairTable::UpdateFull(AgentIndex agent) {
-  full_[agent] = of_agent_[agent].size() >= pairs_per_agent_max_;
+  full_[agent] = of_agent_[agent].size() >= most_of_[agent];
 }
 
 void PairTable::ValidateAgent(AgentIndex agent) const {
-  CORE_CHECK(Of(agent).size() <= pairs_per_agent_max_, "an agent has no more pairs than allowed",
+  CORE_CHECK(Of(agent).size() <= most_of_[agent], "an agent has no more pairs than allowed",
              agent.value());
-  CORE_CHECK(full_[agent] == (Of(agent).size() >= pairs_per_agent_max_),
+  CORE_CHECK(full_[agent] == (Of(agent).size() >= most_of_[agent]),
              "an agent that has no room is marked", agent.value());
   const std::vector<PairSlot>& idle = idle_of_agent_.at(agent);
   for (const PairSlot slot : Of(agent)) {

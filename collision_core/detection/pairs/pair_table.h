@@ -65,8 +65,9 @@ class PairTable {
   PairTable(std::uint32_t pairs_max, std::uint32_t pairs_per_agent_max)
       : pairs_max_(pairs_max), pairs_per_agent_max_(pairs_per_agent_max) {}
 
-  /// The agent of this index has no pairs yet.
-  void AddAgent(AgentIndex agent, const OwnerId& owner = {});
+  /// The agent of this index has no pairs yet. `unlimited`: it may have more than
+  /// pairs_per_agent_max, as a floor on which all others stand.
+  void AddAgent(AgentIndex agent, const OwnerId& owner = {}, bool unlimited = false);
   /// Requires AddAgent(agent), and that it has no pairs.
   void RemoveAgent(AgentIndex agent);
 
@@ -135,6 +136,7 @@ class PairTable {
   std::deque<PairSlot> free_;
   IndexedVector<AgentIndex, std::vector<PairSlot>> of_agent_;
   IndexedVector<AgentIndex, std::vector<PairSlot>> idle_of_agent_;
+  IndexedVector<AgentIndex, std::uint32_t> most_of_;  // how many pairs the agent may have
   IndexedVector<AgentIndex, std::uint8_t> full_;  // as many pairs as the agent may have
   SharedLimit<OwnerId> owners_;                   // present as often as an owner has agents
   IndexedVector<AgentIndex, Owner*> owner_of_;

@@ -61,7 +61,8 @@ TrackedPairs::TrackedPairs(const DetectorOptions& options, const DetectorContext
       announcer_(options, context.counters) {}
 
 void TrackedPairs::AddAgent(AgentIndex agent) {
-  table_.AddAgent(agent, OwnerOf(context_.agents[agent].id));
+  const AgentRecord& record = context_.agents[agent];
+  table_.AddAgent(agent, OwnerOf(record.id), record.is_half_space());
   extremes_.AddAgent(agent);
 }
 

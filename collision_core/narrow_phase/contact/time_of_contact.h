@@ -99,9 +99,6 @@ struct KnownMotion {
 
 /// Both bodies over what follows `from`, seen from a frame that moves along with A's state: nothing
 /// is lost far from the origin, nor at high speed, but what the differences of the states lose.
-struct BodyPair {
-  BodySegment a, b;
-};
 /// Makes the segments of two motions from `from` on.
 BodyPair SegmentsOf(const KnownMotion& a, const KnownMotion& b, Instant from);
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "collision_core/shape/fixed_half_space.h"
 #include "idl/limits.h"
 #include "idl/shape_bytes.h"
 #include "tests/server/shapes/shapes.h"
@@ -226,6 +227,28 @@ struct DescriptionCase {
   std::function<void(v1::AgentDescription*)> spoil;
 };
 
+v1::AgentDescription* MakeFloor(v1::AgentDescription* description) {
+  description->set_radius_m(0);
+  description->set_acceleration_max_m_s2(0);
+  description->mutable_half_space()->mutable_normal()->set_z(1);
+  description->mutable_half_space()->set_offset_m(2);
+  return description;
+}
+
+// Goal:   a half-space is taken as it is told, and higher by its margin.
+TEST(Codec, AHalfSpaceIsHigherByItsMargin) {
+  v1::AgentDescription description = Description("a", 1);
+  MakeFloor(&description);
+  const auto plain = std::get<detection::AgentDeclaration>(DecodeDescription(description));
+  ASSERT_TRUE(plain.half_space);
+  EXPECT_EQ(plain.half_space->normal(), Eigen::Vector3d(0, 0, 1));
+  EXPECT_EQ(plain.half_space->offset(), 2);
+  description.set_margin_m(0.25);
+  const auto grown = std::get<detection::AgentDeclaration>(DecodeDescription(description));
+  EXPECT_GE(grown.half_space->offset(), 2.25);
+  EXPECT_LE(grown.half_space->offset(), 2.25 * (1 + 1e-15));
+}
+
 TEST(Codec, RefusesBadDescriptionsByField) {
   using D = v1::AgentDescription;
   const auto far = v1::REJECTED_OUT_OF_RANGE, odd = v1::REJECTED_NOT_FINITE;
@@ -262,6 +285,16 @@ TEST(Codec, RefusesBadDescriptionsByField) {
          d->add_meets_in_assembly("x");
        }},
       {"shape_hash", v1::REJECTED_BAD_SHAPE, [](D* d) { d->set_shape_hash("\x01"); }},
+      {"radius_m", far, [](D* d) { MakeFloor(d)->set_radius_m(1); }},
+      {"acceleration_max_m_s2", far, [](D* d) { MakeFloor(d)->set_acceleration_max_m_s2(1); }},
+      {"jerk_max_m_s3", far, [](D* d) { MakeFloor(d)->set_jerk_max_m_s3(1); }},
+      {"half_space", far,
+       [](D* d) { MakeFloor(d)->mutable_half_space()->mutable_normal()->set_z(1.00001); }},
+      {"half_space", far,
+       [](D* d) { MakeFloor(d)->mutable_half_space()->mutable_normal()->set_x(kNaN); }},
+      {"half_space", far, [](D* d) { MakeFloor(d)->mutable_half_space()->set_offset_m(1.1e15); }},
+      {"shape_hash", v1::REJECTED_BAD_SHAPE,
+       [](D* d) { MakeFloor(d)->set_shape_hash(std::string(32, 'h')); }},
   };
   for (const DescriptionCase& bad : cases) {
     v1::AgentDescription description = Description("a", 1);

@@ -265,6 +265,31 @@ TEST_F(AgentRegistryTest, WithoutRoomTheOwnerGetsOneRejectionAndTheAgentEntersWh
   EXPECT_TRUE(TakeReasons().empty());
 }
 
+TEST_F(AgentRegistryTest, AHalfSpaceStaysTheSameWhileItIsThere) {
+  SetClock(0);
+  v1::AgentDescription floor = Description("alpha", 0);
+  floor.set_radius_m(0);
+  floor.set_acceleration_max_m_s2(0);
+  floor.mutable_half_space()->mutable_normal()->set_z(1);
+  Describe(floor);
+  Take(State(0, 0, 1));
+  EXPECT_EQ(detector.agents(), 1u);
+  floor.set_revision(2);
+  floor.set_margin_m(0.5);
+  Describe(floor);
+  EXPECT_EQ(TakeReasons(), Reasons{v1::REJECTED_OUT_OF_RANGE}) << "with a margin it is another one";
+  floor.set_revision(3);
+  floor.clear_margin_m();
+  floor.set_class_name("");
+  Describe(floor);
+  EXPECT_TRUE(TakeReasons().empty());
+  EXPECT_EQ(alpha->agents().Find(0)->revision(), 3u);
+  v1::AgentDescription ball = Description("alpha", 0);
+  ball.set_revision(4);
+  Describe(ball);
+  EXPECT_EQ(TakeReasons(), Reasons{v1::REJECTED_OUT_OF_RANGE});
+}
+
 TEST_F(AgentRegistryTest, ANewGenerationEndsTheFormerAndItsLateStatesCountAsOlder) {
   Join();
   v1::AgentDescription next = Description("alpha", 0);

@@ -77,11 +77,17 @@ const std::vector<UncoveredPartner>& UncoveredSearch::Find(const ClearanceQuery&
 void UncoveredSearch::FindCandidates(const ClearanceQuery& query, Instant from) {
   candidates_.clear();
   if (context_.agents.extremes().newest <= from) return;
+  if (context_.agents[query.agent].is_half_space()) return AddAll();
   const History& history = context_.agents[query.agent].history;
   history.ForEachMotion(
       from, [&](const motion::SpaceTimeBound& motion) { FindAround(query, motion, from); });
   std::sort(candidates_.begin(), candidates_.end());
   candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
+}
+
+// No ball contains a half-space. It is queried once, when it comes.
+void UncoveredSearch::AddAll() {
+  for (std::size_t k = 0; k < context_.agents.index_end(); ++k) candidates_.push_back(AgentIndex(k));
 }
 
 // Adds the agents that may have met this motion between `from` and the newest states.
@@ -109,7 +115,8 @@ void UncoveredSearch::FindAround(const ClearanceQuery& query, const motion::Spac
   for (const broad_phase::Neighbour& neighbour : found_) {
     const AgentRecord& partner = agents[AgentIndex(neighbour.partner)];
     const double time = Span(partner.stamp(), scene.newest, agents.skew());
-    if (GetsInto(around, own, partner.wide_bound().bound, std::max(others_time, time))) {
+    if (partner.is_half_space() ||
+        GetsInto(around, own, partner.wide_bound().bound, std::max(others_time, time))) {
       candidates_.push_back(AgentIndex(neighbour.partner));
     }
   }

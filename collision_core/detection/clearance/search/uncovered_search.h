@@ -41,6 +41,7 @@ class UncoveredSearch {
 
  private:
   void FindCandidates(const ClearanceQuery& query, Instant from);
+  void AddAll();
   void FindAround(const ClearanceQuery& query, const motion::SpaceTimeBound& motion, Instant from);
   void Check(const ClearanceQuery& query, AgentIndex partner);
   double OwnReach(const motion::SpaceTimeBound& motion, Instant from) const;

@@ -64,8 +64,7 @@ TEST_F(SolidFileTest, AnErrorNamesPlaceAndCause) {
   EXPECT_EQ(Error("solids { ball { radius_m: 1 } } solids { rounding_m: 1 }"),
             path_ +
                 ": solids[1]: core is missing; allowed are ball, capsule, box, ellipsoid, "
-                "cylinder, cone, hull "
-                "and half_space");
+                "cylinder, cone and hull");
   EXPECT_EQ(Error("solids { ball { radius_m: -1 } }"),
             path_ + ": solids[0] (ball): rounding_m is -1; allowed are 0 to 1e+07 m");
   std::remove(path_.c_str());

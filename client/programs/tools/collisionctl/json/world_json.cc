@@ -31,6 +31,14 @@ const char* NameOf(AgentPresence presence) {
 
 std::string VectorJson(const v1::Vector3& v) { return JsonVector({v.x(), v.y(), v.z()}); }
 
+std::string HalfSpaceJson(const v1::AgentDescription& description) {
+  if (!description.has_half_space()) return "null";
+  return JsonObject()
+      .Add("normal", VectorJson(description.half_space().normal()))
+      .Number("offset_m", description.half_space().offset_m())
+      .Json();
+}
+
 /// What was not declared, which the wire has as no value above 0 (or from 0 on), is null.
 void AddDeclared(const char* key, double value, bool is_declared, JsonObject* object) {
   is_declared ? object->Number(key, value) : object->Null(key);
@@ -51,6 +59,7 @@ std::string DeclarationJson(const v1::AgentDescription& description) {
   const std::string& hash = description.shape_hash();
   return object.TextOrNull("class", description.class_name())
       .TextOrNull("shape_hash", hash.empty() ? "" : HexText(hash))
+      .Add("half_space", HalfSpaceJson(description))
       .Add("meets_in_assembly", JsonTexts({description.meets_in_assembly().begin(),
                                            description.meets_in_assembly().end()}))
       .Add("never_meets",
@@ -120,7 +129,7 @@ std::string AgentJson(const AgentView& agent, const WorldView& view) {
   AddIdentity(
       {description.simulator_id(), description.run(), description.slot(), description.generation()},
       view, &object);
-  const bool is_described = description.radius_m() > 0;
+  const bool is_described = IsDescribed(description);
   return object.TextOrNull("assembly", description.assembly())
       .Add("tags", TagsJson(description.tags()))
       .Text("presence", NameOf(agent.presence))

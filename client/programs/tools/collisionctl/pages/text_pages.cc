@@ -22,8 +22,12 @@ std::string PositionText(const v1::Vector3& p) {
 /// The first digits of the hash, enough to tell the few shapes of a world apart.
 std::string ShapeText(const std::string& hash) {
   constexpr std::size_t kBytesShown = 4;
-  if (hash.empty()) return "ball";
   return HexText(hash.substr(0, kBytesShown));
+}
+
+std::string BodyText(const v1::AgentDescription& description) {
+  if (description.has_half_space()) return "half-space";
+  return description.shape_hash().empty() ? "ball" : ShapeText(description.shape_hash());
 }
 
 /// What follows the clearance of an agent that is not simply there.
@@ -47,12 +51,12 @@ const char* PresenceText(AgentPresence presence) {
 
 std::vector<std::string> AgentRow(const AgentView& agent) {
   const v1::AgentDescription& description = agent.description;
-  const bool described = description.radius_m() > 0;
+  const bool described = IsDescribed(description);
   std::vector<std::string> row = {
       description.simulator_name() + ":" + std::to_string(description.slot()) + "." +
           std::to_string(description.generation()),
       description.agent_name().empty() ? "-" : description.agent_name(),
-      described ? ShapeText(description.shape_hash()) : "-",
+      described ? BodyText(description) : "-",
       described ? NumberText(description.radius_m(), "%.6g") : "-",
       described ? NumberText(description.acceleration_max_m_s2(), "%.6g") : "-"};
   row.push_back(agent.state ? SinceText(agent.state->stamp_ns()) : "-");
