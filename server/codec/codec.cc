@@ -11,6 +11,7 @@
 #include "idl/limits.h"
 #include "idl/shape_bytes.h"
 #include "server/codec/field_check.h"
+#include "server/codec/hypothetical.h"
 
 namespace collision::server {
 
@@ -178,6 +179,8 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
         std::to_string(hash.size()) + " bytes; allowed: 0 or " + std::to_string(kShapeHashBytes));
   }
   if (!check.passed()) return *check.refusal();
+  broad_phase::CollisionFilter of_agent = *filter;
+  if (wire.hypothetical()) of_agent.side = kHypotheticalSide;
   const double alpha = wire.angular_acceleration_max_rad_s2();
   const double cap = wire.speed_max_m_s(), margin = wire.margin_m();
   const double radius = margin > 0 ? numeric::AddUp(wire.radius_m(), margin) : wire.radius_m();
@@ -187,7 +190,7 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
                                                 .time_step = wire.time_step_s(),
                                                 .speed_max = cap > 0 ? cap : numeric::kInfinity,
                                                 .angular_acceleration_max = alpha < 0 ? -1 : alpha},
-                                     .filter = *filter,
+                                     .filter = of_agent,
                                      .margin = wire.margin_m(),
                                      .shape_awaited = !hash.empty()};
 }

@@ -128,6 +128,7 @@ v1::AgentDescription ToMessage(const AgentDescription& description) {
     added.set_value(tag.value);
   }
   if (description.shape) message.set_shape_hash(description.shape->hash());
+  message.set_hypothetical(description.hypothetical);
   return message;
 }
 
@@ -198,6 +199,7 @@ DescribedAgent FromMessage(const v1::AgentDescription& message) {
                                              message.meets_in_assembly().end());
   agent.description.never_meets.assign(message.never_meets().begin(), message.never_meets().end());
   agent.description.tags = TagsOf(message.tags());
+  agent.description.hypothetical = message.hypothetical();
   agent.shape_hash = message.shape_hash();
   return agent;
 }
