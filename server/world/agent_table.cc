@@ -53,6 +53,7 @@ Agent* AgentTable::Add(std::uint32_t slot_index, const Agent& agent) {
   slot.ended = agent.generation_;
   slot.agent = agent;
   ++agents_;
+  hypothetical_ += agent.hypothetical();
   stated_ += slot.stated();
   return &*slot.agent;
 }
