@@ -96,6 +96,10 @@ struct AgentDescription {
   /// every agent that can move. Of its states only the stamp and the expiry count. It cannot change
   /// while the agent is there; the service holds at most 64.
   std::optional<HalfSpace> half_space = {};
+  /// A motion to be screened, such as a manoeuvre that may be flown: only its simulator hears what
+  /// it would meet (Event::hypothetical), and nothing that is found, promised or granted to real
+  /// agents depends on it. It meets real agents only. Never changes.
+  bool hypothetical = false;
 };
 
 /// Where an agent is and how it moves at one instant, as its owner knows it.
@@ -247,6 +251,9 @@ struct Event {
   /// The service removed an agent of the pair: "silent", "evicted", "restarted" or "refused"; else
   /// empty.
   std::string because;
+  /// One of the two is a hypothetical agent of this simulator: nobody else hears of it, and in
+  /// truth nothing touches. It has no contacts_sequence, whatever its status.
+  bool hypothetical = false;
 };
 
 /// A sample that the service refused, and why.

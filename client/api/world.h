@@ -154,9 +154,9 @@ class World {
 
   /// Calls back for events about this simulator's agents, contacts and forecasts alike: each
   /// revision that tells something new once. Those of levels come where WorldOptions::levels names
-  /// them. When a grant counts, the contacts that the service
-  /// published before it have been delivered, or count as missed. Without a callback
-  /// they are kept until TakeEvents(): at most 65536, then the oldest are dropped and counted by
+  /// them; those of hypothetical agents say so (Event::hypothetical). When a grant counts, the
+  /// contacts that the service published before it have been delivered, or count as missed. Without
+  /// a callback they are kept until TakeEvents(): at most 65536, then the oldest are dropped and counted by
   /// events_lost(). A callback may call everything but WaitForService(), Join(), AdvanceTo() and
   /// Poll(), which throw std::logic_error.
   void OnEvent(std::function<void(const Event&)> callback);
@@ -247,7 +247,8 @@ class Agent {
   /// Announces a changed description. A wider bound counts from clearance().effective_from_ns on
   /// once clearance().description_counts: in real time, when all others have heard of it. A
   /// narrower one counts from the next state on: set one before the next Publish().
-  /// Throws std::invalid_argument as AddAgent() does.
+  /// Throws std::invalid_argument as AddAgent() does, and where it would make a real agent
+  /// hypothetical or the other way about.
   void SetDescription(const AgentDescription& description);
 
   /// The newest clearance received; before the first one, a clearance that promises nothing.

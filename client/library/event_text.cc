@@ -247,6 +247,7 @@ std::string EventLine(const Event& event, const AgentNamer& name, std::int64_t o
                 Name(event.status));
   return head + Padded(name(event.lower) + " × " + name(event.higher), kPairColumns) + "  #" +
          std::to_string(event.contact) + " r" + std::to_string(event.revision) + "  " +
+         (event.hypothetical ? "hypothetical  " : "") +
          (event.level.empty() ? "" : "level " + event.level + "  ") + WhenText(event, origin_ns) +
          GapText(event) + SpeedText(event) + ExpectedText(event, origin_ns) +
          ClosestText(event, origin_ns) +

@@ -164,6 +164,7 @@ void CheckHalfSpace(const AgentDescription& description) {
   none("acceleration_max_m_s2", description.acceleration_max_m_s2.value_or(0));
   none("jerk_max_m_s3", description.jerk_max_m_s3);
   if (description.shape) Refuse("shape", "beside half_space", "one of the two");
+  if (description.hypothetical) Refuse("hypothetical", "of a half-space", "of what can move");
 }
 
 void CheckMotion(const AgentDescription& description) {

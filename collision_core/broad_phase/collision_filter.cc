@@ -31,7 +31,7 @@ bool HasAll(const Numbers& of, const Numbers& all) {
 
 bool operator==(const CollisionFilter& a, const CollisionFilter& b) {
   return a.group == b.group && a.mask == b.mask && a.assembly == b.assembly && a.name == b.name &&
-         (a.partners == b.partners || ListsOf(a) == ListsOf(b));
+         a.side == b.side && (a.partners == b.partners || ListsOf(a) == ListsOf(b));
 }
 
 bool ListsLetMeet(const PartnerLists* of_a, std::uint32_t name_of_a, const PartnerLists* of_b,
@@ -46,6 +46,7 @@ bool ListsLetMeet(const PartnerLists* of_a, std::uint32_t name_of_a, const Partn
 bool MayMeetMore(const CollisionFilter& before, const CollisionFilter& next) {
   if ((next.group & ~before.group) != 0 || (next.mask & ~before.mask) != 0) return true;
   if (before.assembly != 0 && next.assembly != before.assembly) return true;
+  if (before.side != 0 && next.side != before.side) return true;
   if (before.name != next.name) return true;
   const PartnerLists &had = ListsOf(before), &has = ListsOf(next);
   return !HasAll(has.never_meets, had.never_meets) ||

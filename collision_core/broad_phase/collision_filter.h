@@ -16,7 +16,11 @@ struct PartnerLists {
   friend bool operator==(const PartnerLists&, const PartnerLists&) = default;
 };
 
-/// What decides whether two agents can meet at all: groups, the assembly, and single partners.
+/// The greatest number of a side.
+inline constexpr std::uint32_t kSideMax = 3;
+
+/// What decides whether two agents can meet at all: groups, the assembly, the side, and single
+/// partners.
 ///
 /// Whether two can meet is a function of their two filters alone. So it does not depend on which of
 /// them came first, nothing changes for others when an agent comes or goes, and there is no table
@@ -27,6 +31,7 @@ struct CollisionFilter {
   std::uint32_t mask = ~0u;    ///< Groups that it can meet.
   std::uint32_t assembly = 0;  ///< The agents of one assembly do not meet; 0: of none.
   std::uint32_t name = 0;      ///< By which lists refer to the agent; 0: none does.
+  std::uint32_t side = 0;      ///< The agents of one side never meet; 0: of none, at most kSideMax.
   std::shared_ptr<const PartnerLists> partners = nullptr;  ///< Null: both lists are empty.
 
   /// Lists are compared by their content.
@@ -51,22 +56,29 @@ inline bool AreOfOneAssembly(std::uint32_t of_a, std::uint32_t of_b) {
   return of_a == of_b && of_a != 0;
 }
 
+/// Whether both are of one side.
+inline bool AreOfOneSide(std::uint32_t of_a, std::uint32_t of_b) {
+  return of_a == of_b && of_a != 0;
+}
+
 /// Whether the two can meet at all.
 inline bool CanMeet(const CollisionFilter& a, const CollisionFilter& b) {
   if (!GroupsLetMeet(a.group, a.mask, b.group, b.mask)) return false;
+  if (AreOfOneSide(a.side, b.side)) return false;
   const bool apart = AreOfOneAssembly(a.assembly, b.assembly);
   if (!a.partners && !b.partners) return !apart;
   return ListsLetMeet(a.partners.get(), a.name, b.partners.get(), b.name, apart);
 }
 
 /// Whether an agent that had the filter `before` may meet some agent with `next` that it could not
-/// meet before. Never falsely false; true for another name, and for another assembly than one that
-/// it was in, even if no other agent has or lists them.
+/// meet before. Never falsely false; true for another name, and for another assembly or side than
+/// one that it was in, even if no other agent has or lists them.
 bool MayMeetMore(const CollisionFilter& before, const CollisionFilter& next);
 
 /// Whether the filter says more than a name.
 inline bool KeepsApart(const CollisionFilter& filter) {
-  return filter.group != 1 || filter.mask != ~0u || filter.assembly != 0 || filter.partners;
+  return filter.group != 1 || filter.mask != ~0u || filter.assembly != 0 ||
+         filter.side != 0 || filter.partners;
 }
 
 }  // namespace collision::broad_phase

@@ -27,6 +27,9 @@ bool Detector::Redeclare(const AgentId& id, const AgentDeclaration& declaration,
   return implementation_->Redeclare(id, declaration, effective_from);
 }
 bool Detector::Remove(const AgentId& id) { return implementation_->Remove(id); }
+void Detector::ForEachAgent(const std::function<void(const HeldAgent&)>& use) const {
+  implementation_->ForEachAgent(use);
+}
 void Detector::SetHeardUntil(const OwnerId& owner, Instant until) {
   implementation_->SetHeardUntil(owner, until);
 }
@@ -55,6 +58,7 @@ bool Detector::HasRoomForHalfSpace() const {
   return implementation_->agents().half_spaces() < kHalfSpacesMax;
 }
 std::size_t Detector::agents() const { return implementation_->agents().size(); }
+std::size_t Detector::departing() const { return implementation_->agents().departing(); }
 std::size_t Detector::pairs_tracked() const { return implementation_->pairs().table().size(); }
 std::size_t Detector::pairs_waiting() const { return implementation_->pairs().waiting(); }
 std::vector<OwnerWork> Detector::owner_work() const {

@@ -21,6 +21,15 @@
 
 namespace collision::detection {
 
+/// An agent as a detector holds it, so that another one can admit it too.
+struct HeldAgent {
+  AgentId id;
+  AgentDeclaration in_force;  ///< Of its newest state.
+  AgentDeclaration declared;  ///< The latest one: what it has narrower holds from the next state on.
+  motion::MotionState state;  ///< The newest.
+  Instant heard_until;        ///< Its owner has reported everything about it up to here.
+};
+
 /// How the detector took a state.
 enum class UpdateOutcome {
   kKept,      ///< The bound lies inside the last one: standing answers stay valid.
@@ -82,6 +91,10 @@ class Detector {
   /// agent.
   bool Remove(const AgentId& id);
 
+  /// Calls `use` with each agent that is not removed, in an order that depends on nothing but the
+  /// calls before. O(agents). `use` calls nothing of this detector.
+  void ForEachAgent(const std::function<void(const HeldAgent&)>& use) const;
+
   /// The owner, one run of a simulator, has reported everything about its agents up to `until`:
   /// contacts are evaluated up to there. Holds for all agents of the owner, also for those admitted
   /// later; has no effect while it has none. Never goes back. O(log owners).
@@ -133,6 +146,8 @@ class Detector {
   /// Whether another half-space can be admitted: at most kHalfSpacesMax are held, those included
   /// that have left since the last step.
   bool HasRoomForHalfSpace() const;
+  /// Agents that are removed and still to be evaluated up to the time that their owners reported.
+  std::size_t departing() const;
   std::size_t pairs_tracked() const;
   /// Of these, pairs that wait for their evaluation since the last step's work was used up.
   std::size_t pairs_waiting() const;

@@ -155,6 +155,24 @@ bool Detector::Implementation::Remove(const AgentId& id) {
   return true;
 }
 
+void Detector::Implementation::ForEachAgent(
+    const std::function<void(const HeldAgent&)>& use) const {
+  for (std::size_t k = 0; k < agents_.index_end(); ++k) {
+    const AgentIndex agent(k);
+    if (!agents_.Contains(agent) || agents_[agent].removal != 0) continue;
+    const AgentRecord& record = agents_[agent];
+    const History::Sample& newest = record.history.newest();
+    AgentDeclaration in_force = record.declaration;
+    in_force.limits = newest.bound.limits;
+    in_force.shape = newest.shape;
+    // A shape that was declared since the newest state is unknown up to the next one. From a ball
+    // it is that, too; of one that was awaited it would have arrived.
+    const bool is_known_later = record.shape_redeclared && record.declaration.shape != nullptr;
+    in_force.shape_awaited = newest.shape_awaited && !is_known_later;
+    use({record.id, in_force, record.declaration, newest.bound.state, record.heard_until()});
+  }
+}
+
 // Each of the others is told of the first agent, in the order of ids, that it can meet.
 void Detector::Implementation::VoidOwner(const OwnerId& owner, Instant from) {
   std::vector<AgentIndex> disbelieved, others;

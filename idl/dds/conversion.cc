@@ -126,7 +126,7 @@ FIELDS(AgentDescription,
        VALUE(time_step_s) TEXT(class_name) VALUE(margin_m) HASH(shape_hash) TEXT(assembly)
        LIST(meets_in_assembly, wire::kPartnersListedMax)
        LIST(never_meets, wire::kPartnersListedMax) LIST(tags, wire::kTagsMax)
-       OPTIONAL(half_space))
+       OPTIONAL(half_space) VALUE(hypothetical))
 
 FIELDS(ShapePart,
        VALUE(simulator_id) VALUE(shape) VALUE(part) HASH(content_hash) VALUE(parts) VALUE(run)
@@ -158,7 +158,8 @@ FIELDS(AgentClearance,
 FIELDS(Clearance,
        VALUE(simulator_id) VALUE(chunk) VALUE(region) VALUE(run) MESSAGE(stamp) VALUE(now_ns)
        VALUE(granted_until_ns) VALUE(contacts_sequence) VALUE(forecasts_sequence)
-       LIST(agents, collision_v1_STATES_PER_CHUNK_MAX) VALUE(incarnation))
+       LIST(agents, collision_v1_STATES_PER_CHUNK_MAX) VALUE(incarnation)
+       VALUE(screening_sequence))
 
 FIELDS(EarliestIntersection,
        VALUE(service_id) VALUE(region) MESSAGE(stamp) VALUE(now_ns) VALUE(found) VALUE(earliest_ns)
@@ -185,6 +186,10 @@ FIELDS(CollisionEvent,
        OPTIONAL(higher_state) OPTIONAL(expected) OPTIONAL(closest) VALUE(tree_level)
        VALUE(work_units) VALUE(limited_by) LIST(extensions, wire::kEventExtensionsMax)
        VALUE(margin_m) TEXT(level))
+
+FIELDS(ScreeningEvent,
+       VALUE(simulator_id) VALUE(region) VALUE(pair_slot) VALUE(run) VALUE(incarnation)
+       MESSAGE(event))
 
 FIELDS(Rejection,
        VALUE(simulator_id) VALUE(region) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(run_in_force)
@@ -307,6 +312,8 @@ void FromWire(TopicId topic, const void* wire, v1::Output* output) {
       return Get(wire, output->mutable_simulator_report());
     case TopicId::kAgentBreach:
       return Get(wire, output->mutable_agent_breach());
+    case TopicId::kScreening:
+      return Get(wire, output->mutable_screening_event());
     default:
       throw std::logic_error("not a topic of the service");
   }
@@ -329,6 +336,7 @@ BOTH_WAYS(Rejection)
 BOTH_WAYS(ServiceStatus)
 BOTH_WAYS(SimulatorReport)
 BOTH_WAYS(AgentBreach)
+BOTH_WAYS(ScreeningEvent)
 BOTH_WAYS(OperatorCommand)
 
 }  // namespace collision::dds

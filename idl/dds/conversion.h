@@ -37,6 +37,7 @@ COLLISION_CARRIER(Rejection, kRejection)
 COLLISION_CARRIER(ServiceStatus, kServiceStatus)
 COLLISION_CARRIER(SimulatorReport, kSimulatorReport)
 COLLISION_CARRIER(AgentBreach, kAgentBreach)
+COLLISION_CARRIER(ScreeningEvent, kScreening)
 COLLISION_CARRIER(OperatorCommand, kOperatorCommand)
 #undef COLLISION_CARRIER
 

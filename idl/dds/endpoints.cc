@@ -52,7 +52,7 @@ class Builder {
 
   /// `inbox`: null, the readers keep their samples themselves.
   void Read(Source source, const std::string& partition, const dds_listener_t* listener,
-            Inbox* inbox, bool earliest = true) {
+            Inbox* inbox, bool earliest = true, bool screening = true) {
     Qos qos = MakeQos();
     dds_qset_partition1(qos.get(), partition.c_str());
     const dds_entity_t subscriber =
@@ -60,6 +60,7 @@ class Builder {
     for (const TopicRow& row : Topics()) {
       if (row.source != source) continue;
       if (row.id == TopicId::kEarliestIntersection && !earliest) continue;
+      if (row.id == TopicId::kScreening && !screening) continue;
       // Of a service its status tells.
       const bool listens = source != Source::kService || row.id == TopicId::kServiceStatus;
       Read(row, subscriber, ReaderQos(row), listens ? listener : nullptr, inbox);
@@ -131,10 +132,10 @@ class Builder {
 Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
                         dds_duration_t lease, const dds_listener_t* listener, Inbox* inbox) {
   Builder builder(participant, lease);
-  const auto& [of_simulators, of_service, earliest, of_other_services, events_too, as_simulator,
+  const auto& [of_simulators, of_service, earliest, screening, of_other_services, events_too, as_simulator,
                as_service, of_operators, as_operator, of_watchers, as_watcher] = partitions;
   if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener, inbox);
-  if (of_service) builder.Read(Source::kService, *of_service, listener, nullptr, earliest);
+  if (of_service) builder.Read(Source::kService, *of_service, listener, nullptr, earliest, screening);
   if (of_other_services) builder.ReadOtherServices(*of_other_services, events_too, listener);
   if (as_service) builder.Write(Source::kService, *as_service);
   if (as_simulator) builder.Write(Source::kSimulators, *as_simulator);

@@ -229,6 +229,8 @@ bool Intake::Wanted(const TopicRow& row, const void* sample) const {
     return As<collision_v1_SimulatorReport>(sample).simulator_id == own_;
   if (row.id == TopicId::kAgentBreach)
     return As<collision_v1_AgentBreach>(sample).simulator_id == own_;
+  if (row.id == TopicId::kScreening)
+    return As<collision_v1_ScreeningEvent>(sample).simulator_id == own_;
   if (row.id == TopicId::kRejection) return As<collision_v1_Rejection>(sample).simulator_id == own_;
   return true;
 }

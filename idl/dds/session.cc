@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "idl/dds/conversion.h"
 #include "idl/dds/endpoints.h"
@@ -56,6 +57,7 @@ dds::Partitions PartitionsOf(const DdsSessionOptions& options) {
   if (simulator || as_operator || (monitor && options.reads_service))
     partitions.read_of_service = options.world;
   partitions.read_earliest = monitor;
+  partitions.read_screening = simulator;
   if (simulator) partitions.write_as_simulator = options.world + "." + options.simulator;
   if (service) partitions.read_of_other_services = partitions.write_as_service = options.world;
   partitions.read_events_of_other_services = service && options.reads_events_of_services;
@@ -129,6 +131,11 @@ class DdsSession::Implementation {
     Write(message);
   }
 
+  void WriteScreening(const v1::ScreeningEvent& message) {
+    screened_[message.simulator_id()].insert(message.pair_slot());
+    Write(message);
+  }
+
   /// Writes and disposes at once, so that the removal has a sequence of its own.
   void RemoveAgent(const v1::AgentRemoval& removal) {
     collision_v1_AgentDescription sample{};
@@ -163,12 +170,18 @@ class DdsSession::Implementation {
     }
     collision_v1_AgentBreach breach{};
     breach.simulator_id = simulator_id;
-    const auto slots = breached_.extract(simulator_id);
-    if (slots.empty()) return;
-    for (const std::uint32_t slot : slots.mapped()) {
+    for (const std::uint32_t slot : std::exchange(breached_[simulator_id], {})) {
       breach.slot = slot;
       Withdraw(dds::TopicId::kAgentBreach, &breach);
     }
+    breached_.erase(simulator_id);
+    collision_v1_ScreeningEvent screening{};
+    screening.simulator_id = simulator_id;
+    for (const std::uint32_t pair_slot : std::exchange(screened_[simulator_id], {})) {
+      screening.pair_slot = pair_slot;
+      Withdraw(dds::TopicId::kScreening, &screening);
+    }
+    screened_.erase(simulator_id);
   }
 
   void Flush() {
@@ -287,6 +300,7 @@ class DdsSession::Implementation {
   dds::Intake intake_;
   std::uint64_t service_id_ = 0;  ///< Of the statuses that were written; 0: none.
   std::map<std::uint64_t, std::set<std::uint32_t>> breached_;  ///< Slots, by simulator.
+  std::map<std::uint64_t, std::set<std::uint32_t>> screened_;  ///< Pair slots, likewise.
   std::uint64_t writes_failed_ = 0;
   std::uint64_t senders_ignored_ = 0;
   std::optional<dds::Waker> waker_;
@@ -314,6 +328,9 @@ void DdsSession::Write(const v1::Rejection& message) { implementation_->Write(me
 void DdsSession::Write(const v1::ServiceStatus& message) { implementation_->WriteStatus(message); }
 void DdsSession::Write(const v1::SimulatorReport& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::AgentBreach& message) { implementation_->WriteBreach(message); }
+void DdsSession::Write(const v1::ScreeningEvent& message) {
+  implementation_->WriteScreening(message);
+}
 void DdsSession::Write(const v1::OperatorCommand& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::Watch& message) { implementation_->Write(message); }
 

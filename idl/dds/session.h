@@ -97,6 +97,7 @@ class DdsSession {
   void Write(const v1::ServiceStatus& message);
   void Write(const v1::SimulatorReport& message);
   void Write(const v1::AgentBreach& message);
+  void Write(const v1::ScreeningEvent& message);
   void Write(const v1::OperatorCommand& message);
   void Write(const v1::Watch& message);
 
@@ -107,7 +108,8 @@ class DdsSession {
   /// keeps it as long as an agent refers to it. kSimulator only. Flush() sends it.
   void RemoveShape(std::uint64_t simulator_id, std::uint32_t shape, std::uint32_t parts);
 
-  /// What was written about this simulator, clearances, report and breaches, is not kept for
+  /// What was written about this simulator, clearances, report, breaches and screening, is not
+  /// kept for
   /// readers that join later. kService only; writing about it again ends that.
   void ForgetSimulator(std::uint64_t simulator_id);
 

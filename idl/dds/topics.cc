@@ -36,6 +36,8 @@ const std::array<TopicRow, kTopics>& Topics() {
        kService, 1, 1, 1, false, kAll},
       {kAgentBreach, "collision/v1/agent_breach", &collision_v1_AgentBreach_desc, kService, 1, 1, 1,
        false, kAll},
+      {kScreening, "collision/v1/screening", &collision_v1_ScreeningEvent_desc, kService, 1, 1, 1,
+       false, kAll},
       {kOperatorCommand, "collision/v1/operator_command", &collision_v1_OperatorCommand_desc,
        kOperators, 1, 1, 1, false, kCommandsAtOnce},
       {kWatch, "collision/v1/watch", &collision_v1_Watch_desc, kWatchers, 1, 1, 1, false, kAll},

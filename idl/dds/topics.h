@@ -25,10 +25,11 @@ enum class TopicId {
   kServiceStatus,
   kSimulatorReport,
   kAgentBreach,
+  kScreening,
   kOperatorCommand,
   kWatch,
 };
-inline constexpr std::size_t kTopics = 16;
+inline constexpr std::size_t kTopics = 17;
 
 enum class Source { kSimulators, kService, kOperators, kWatchers };
 

@@ -89,6 +89,8 @@ void DdsBus::Write(const v1::Output& output) {
       return session_.Write(output.simulator_report());
     case v1::Output::kAgentBreach:
       return session_.Write(output.agent_breach());
+    case v1::Output::kScreeningEvent:
+      return session_.Write(output.screening_event());
     case v1::Output::kServiceHello:
       return session_.Write(output.service_hello());
     case v1::Output::MESSAGE_NOT_SET:

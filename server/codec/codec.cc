@@ -12,6 +12,7 @@
 #include "idl/limits.h"
 #include "idl/shape_bytes.h"
 #include "server/codec/field_check.h"
+#include "server/codec/hypothetical.h"
 
 namespace collision::server {
 
@@ -159,7 +160,12 @@ void CheckHalfSpace(const v1::AgentDescription& wire, FieldCheck* check) {
   none("acceleration_max_m_s2", wire.acceleration_max_m_s2());
   none("jerk_max_m_s3", wire.jerk_max_m_s3());
   if (!ShapeHashOf(wire).empty()) {
-    check->Refuse(v1::REJECTED_BAD_SHAPE, "shape_hash", "a shape beside half_space; allowed: one of the two");
+    check->Refuse(v1::REJECTED_BAD_SHAPE, "shape_hash",
+                  "a shape beside half_space; allowed: one of the two");
+  }
+  if (wire.hypothetical()) {
+    check->Refuse(v1::REJECTED_OUT_OF_RANGE, "hypothetical",
+                  "of a half-space; allowed: of what can move");
   }
 }
 
@@ -209,6 +215,8 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
   }
   CheckHalfSpace(wire, &check);
   if (!check.passed()) return *check.refusal();
+  broad_phase::CollisionFilter of_agent = *filter;
+  if (wire.hypothetical()) of_agent.side = kHypotheticalSide;
   const double alpha = wire.angular_acceleration_max_rad_s2();
   const double cap = wire.speed_max_m_s(), margin = wire.margin_m();
   const double radius = margin > 0 ? numeric::AddUp(wire.radius_m(), margin) : wire.radius_m();
@@ -218,7 +226,7 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
                                                 .time_step = wire.time_step_s(),
                                                 .speed_max = cap > 0 ? cap : numeric::kInfinity,
                                                 .angular_acceleration_max = alpha < 0 ? -1 : alpha},
-                                     .filter = *filter,
+                                     .filter = of_agent,
                                      .margin = wire.margin_m(),
                                      .shape_awaited = !hash.empty(),
                                      .half_space = HalfSpaceOf(wire)};

@@ -15,6 +15,7 @@
 //   margin                        0, or 1e-6 m to a radius                  OUT_OF_RANGE
 //   class                         one of the configuration, or none         OUT_OF_RANGE
 //   lists of partners             16 names; not itself, none in both        OUT_OF_RANGE
+//   hypothetical                  as the agent was described first          OUT_OF_RANGE
 //   simulator id                  the hash of the name                      ID_MISMATCH
 //   stamp                         simulated clock: the time granted;        FUTURE_STAMP
 //                                 before the first grant now, or its first

@@ -36,10 +36,12 @@ detection::DetectorOptions OptionsOf(const v1::Config& config, std::uint64_t per
           .broad_phase = MethodOf(config.broad_phase())};
 }
 
-/// Of the budget of a step, the part of all levels.
-std::uint64_t OfLevels(std::uint64_t per_step) {
-  return static_cast<std::uint64_t>(kLevelsShare * static_cast<double>(per_step));
+std::uint64_t PartOf(std::uint64_t per_step, double share) {
+  return static_cast<std::uint64_t>(share * static_cast<double>(per_step));
 }
+
+/// Of the budget of a step, the part of all levels.
+std::uint64_t OfLevels(std::uint64_t per_step) { return PartOf(per_step, kLevelsShare); }
 
 }  // namespace
 
@@ -56,6 +58,12 @@ detection::DetectorOptions LevelDetectorOptions(const v1::Config& config,
   detection::DetectorOptions options = OptionsOf(config, per_step > 0 ? share : 0);
   options.announce_within = look_ahead;
   return options;
+}
+
+detection::DetectorOptions ScreeningDetectorOptions(const v1::Config& config) {
+  const std::uint64_t per_step = WorkUnitsPerStep(config);
+  const std::uint64_t share = std::max<std::uint64_t>(1, PartOf(per_step, kScreeningShare));
+  return OptionsOf(config, per_step > 0 ? share : 0);
 }
 
 }  // namespace collision::server

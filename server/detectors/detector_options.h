@@ -17,6 +17,10 @@ inline constexpr int kSlicesPerResolution = 32;
 /// detector of contacts has the rest.
 inline constexpr double kLevelsShare = 0.25;
 
+/// Beside the budget of a step, what hypothetical agents may use for their screening, as a part of
+/// it: the detectors of real agents have no less because of them.
+inline constexpr double kScreeningShare = 0.25;
+
 /// Of the detector of contacts, beside those of `level_detectors`. Requires a complete
 /// configuration.
 detection::DetectorOptions DetectorOptionsOf(const v1::Config& config,
@@ -26,5 +30,8 @@ detection::DetectorOptions DetectorOptionsOf(const v1::Config& config,
 /// begin within `look_ahead` [s].
 detection::DetectorOptions LevelDetectorOptions(const v1::Config& config,
                                                 std::size_t level_detectors, double look_ahead);
+
+/// Of the detector of hypothetical agents.
+detection::DetectorOptions ScreeningDetectorOptions(const v1::Config& config);
 
 }  // namespace collision::server

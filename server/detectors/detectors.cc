@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "server/codec/hypothetical.h"
 #include "server/detectors/detector_options.h"
 
 namespace collision::server {
@@ -29,47 +30,87 @@ void Detectors::AddLevels() {
 
 bool Detectors::Admit(const detection::AgentId& id, const detection::AgentDeclaration& declaration,
                       const motion::MotionState& state, Instant effective_from) {
+  if (server::IsHypothetical(declaration)) {
+    return Screening().Admit(id, declaration, state, effective_from);
+  }
   if (!contacts_.Admit(id, declaration, state, effective_from)) return false;
   EachOfLevels([&](GrownDetector& one) { one.Admit(id, declaration, state, effective_from); });
+  if (screening_) screening_->Admit(id, declaration, state, effective_from);
   return true;
 }
 
 detection::UpdateOutcome Detectors::Update(const detection::AgentId& id,
                                            const motion::MotionState& state,
                                            Instant effective_from) {
+  if (screening_) {
+    const auto outcome = screening_->detector().Update(id, state, effective_from);
+    if (IsHypothetical(id)) return outcome;
+  }
   EachOfLevels([&](GrownDetector& one) { one.detector().Update(id, state, effective_from); });
   return contacts_.Update(id, state, effective_from);
 }
 
 bool Detectors::Redeclare(const detection::AgentId& id,
                           const detection::AgentDeclaration& declaration, Instant effective_from) {
+  if (screening_) {
+    const bool is_known = screening_->Redeclare(id, declaration, effective_from);
+    if (IsHypothetical(id)) return is_known;
+  }
   if (!contacts_.Redeclare(id, declaration, effective_from)) return false;
   EachOfLevels([&](GrownDetector& one) { one.Redeclare(id, declaration, effective_from); });
   return true;
 }
 
 bool Detectors::Remove(const detection::AgentId& id) {
+  if (screening_) {
+    const bool is_hypothetical = IsHypothetical(id), is_known = screening_->Remove(id);
+    if (is_hypothetical) return is_known;
+  }
   EachOfLevels([&](GrownDetector& one) { one.Remove(id); });
   return contacts_.Remove(id);
+}
+
+motion::BrokenBound Detectors::ExplainLastBreach(const detection::AgentId& id) const {
+  return (IsHypothetical(id) ? screening_->detector() : contacts_).ExplainLastBreach();
 }
 
 void Detectors::SetHeardUntil(const detection::OwnerId& owner, Instant until) {
   contacts_.SetHeardUntil(owner, until);
   EachOfLevels([&](GrownDetector& one) { one.detector().SetHeardUntil(owner, until); });
+  if (screening_) screening_->detector().SetHeardUntil(owner, until);
 }
 
 void Detectors::SetPairShare(const detection::OwnerId& owner, const Share& share) {
   contacts_.SetPairShare(owner, share);
   EachOfLevels([&](GrownDetector& one) { one.detector().SetPairShare(owner, share); });
+  if (screening_) screening_->detector().SetPairShare(owner, share);
 }
 
 void Detectors::VoidOwner(const detection::OwnerId& owner, Instant from) {
   contacts_.VoidOwner(owner, from);
   EachOfLevels([&](GrownDetector& one) { one.detector().VoidOwner(owner, from); });
+  if (screening_) screening_->detector().VoidOwner(owner, from);
 }
 
 void Detectors::AdvanceLevels(Instant now, const std::function<void()>& progress) {
   for (LevelDetector& level : levels_) level.Advance(now, progress);
+}
+
+// Its last events stay until then.
+void Detectors::AdvanceScreening(Instant now, const std::function<void()>& progress) {
+  if (screening_ && screening_->is_over()) screening_.reset();
+  if (screening_) screening_->Advance(now, progress);
+}
+
+ScreeningDetector& Detectors::Screening() {
+  if (!screening_) {
+    screening_ = std::make_unique<ScreeningDetector>(ScreeningDetectorOptions(config_), contacts_);
+  }
+  return *screening_;
+}
+
+bool Detectors::IsHypothetical(const detection::AgentId& id) const {
+  return screening_ && screening_->IsHypothetical(id);
 }
 
 void Detectors::BeginEpoch() {
@@ -77,10 +118,16 @@ void Detectors::BeginEpoch() {
   contacts_ = detection::Detector(DetectorOptionsOf(config_, level_detectors_));
   levels_.clear();
   AddLevels();
+  screening_.reset();
+}
+
+std::size_t Detectors::agents() const {
+  return contacts_.agents() + (screening_ ? screening_->hypothetical() : 0);
 }
 
 std::size_t Detectors::pairs_waiting() const {
   std::size_t waiting = contacts_.pairs_waiting();
+  if (screening_) waiting += screening_->detector().pairs_waiting();
   for (const LevelDetector& level : levels_) {
     level.Each([&](const GrownDetector& one) { waiting += one.detector().pairs_waiting(); });
   }

@@ -1,18 +1,24 @@
-// Every detector of the service: that of contacts, and those of the levels.
+// Every detector of the service: that of contacts, those of the levels, that of hypothetical agents.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "collision_core/detection/detector.h"
 #include "server/detectors/level_detector.h"
+#include "server/detectors/screening_detector.h"
 
 namespace collision::server {
 
 /// Gives each input to the detector of contacts and to those of the levels, so that all have the
 /// same agents, states and times. What an input does is decided by the first alone: clearances,
 /// grants, outcomes. Without levels there is nothing else.
+///
+/// Hypothetical agents are in none of these: they have a detector of their own (ScreeningDetector),
+/// which gets each input, too, and exists only while there are such agents. So whatever they do
+/// changes nothing that is found or promised of others.
 ///
 /// The inputs are those of detection::Detector, and so are the rules. One thread.
 class Detectors {
@@ -27,6 +33,8 @@ class Detectors {
   bool Redeclare(const detection::AgentId& id, const detection::AgentDeclaration& declaration,
                  Instant effective_from);
   bool Remove(const detection::AgentId& id);
+  /// Of the agent whose Update() was the last one, and returned kBreached.
+  motion::BrokenBound ExplainLastBreach(const detection::AgentId& id) const;
   void SetHeardUntil(const detection::OwnerId& owner, Instant until);
   void SetPairShare(const detection::OwnerId& owner, const Share& share);
   void VoidOwner(const detection::OwnerId& owner, Instant from);
@@ -34,6 +42,9 @@ class Detectors {
   /// Brings the levels to `now`. That of contacts comes first and is advanced by itself, so that
   /// what it finds leaves before the levels are looked at.
   void AdvanceLevels(Instant now, const std::function<void()>& progress);
+
+  /// Brings the screening to `now`, if there is one; after the others.
+  void AdvanceScreening(Instant now, const std::function<void()>& progress);
 
   /// All of them begin anew, without agents.
   void BeginEpoch();
@@ -44,6 +55,13 @@ class Detectors {
   /// In the order of the configuration.
   std::vector<LevelDetector>& levels() { return levels_; }
   const std::vector<LevelDetector>& levels() const { return levels_; }
+
+  /// Null: there are no hypothetical agents.
+  ScreeningDetector* screening() { return screening_.get(); }
+  const ScreeningDetector* screening() const { return screening_.get(); }
+
+  /// Agents, real and hypothetical ones.
+  std::size_t agents() const;
 
   /// Pairs of all detectors that wait for their evaluation.
   std::size_t pairs_waiting() const;
@@ -57,6 +75,8 @@ class Detectors {
     for (LevelDetector& level : levels_) level.Each(call);
   }
   void AddLevels();
+  ScreeningDetector& Screening();
+  bool IsHypothetical(const detection::AgentId& id) const;
 
   const v1::Config& config_;
   detection::DetectorCounters past_;  ///< Of the epochs that are over.
@@ -64,6 +84,7 @@ class Detectors {
   std::size_t level_detectors_ = 0;
   detection::Detector contacts_;
   std::vector<LevelDetector> levels_;
+  std::unique_ptr<ScreeningDetector> screening_;
 };
 
 }  // namespace collision::server

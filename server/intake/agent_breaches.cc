@@ -62,7 +62,7 @@ bool AgentBreaches::MayTell(std::uint64_t simulator) const {
 v1::AgentBreach AgentBreaches::MessageOf(const Simulator& simulator,
                                          const detection::AgentId& agent,
                                          std::uint64_t count) const {
-  const motion::BrokenBound broken = detector_.ExplainLastBreach();
+  const motion::BrokenBound broken = detectors_.ExplainLastBreach(agent);
   v1::AgentBreach message;
   message.set_simulator_id(agent.simulator);
   message.set_slot(agent.slot);

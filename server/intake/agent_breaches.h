@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "collision_core/detection/detector.h"
+#include "server/detectors/detectors.h"
 #include "server/world/world.h"
 
 namespace collision::server {
@@ -27,10 +27,10 @@ inline constexpr std::size_t kBreachesOfOneToldMax = 64;
 class AgentBreaches {
  public:
   /// Both outlive this.
-  AgentBreaches(const World* world, const detection::Detector* detector)
-      : world_(*world), detector_(*detector) {}
+  AgentBreaches(const World* world, const Detectors* detectors)
+      : world_(*world), detectors_(*detectors) {}
 
-  /// The detector has just answered kBreached for this agent, for the `count`-th time.
+  /// The detectors have just answered kBreached for this agent, for the `count`-th time.
   void Add(const Simulator& simulator, const detection::AgentId& agent, std::uint64_t count);
 
   /// The messages since the last call, without stamps.
@@ -52,7 +52,7 @@ class AgentBreaches {
                             std::uint64_t count) const;
 
   const World& world_;
-  const detection::Detector& detector_;
+  const Detectors& detectors_;
   std::int64_t period_ = -1;  ///< Number of the one that `told_` is of.
   std::map<std::pair<std::uint64_t, std::uint32_t>, Told> told_;  ///< By simulator and slot.
   std::map<std::uint64_t, std::size_t> told_of_;                  ///< How many, by simulator.

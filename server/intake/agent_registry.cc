@@ -28,10 +28,11 @@ AgentRegistry::AgentRegistry(const v1::Config& config, World* world, Detectors* 
       shapes_(*shapes),
       names_(config),
       undescribed_(ToNanoseconds(config.undescribed_after_s())),
-      breaches_(&world_, &detectors->contacts()) {}
+      breaches_(&world_, detectors) {}
 
 void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& wire,
                              const detection::AgentDeclaration& declaration) {
+  if (const auto refusal = CheckKind(*simulator, wire)) return rejections_.Add(*refusal);
   const Agent* agent = simulator->agents().Find(wire.slot());
   if (agent == nullptr || !agent->admitted()) return Introduce(simulator, wire, declaration);
   Told& told = told_[simulator->id()][wire.slot()];
@@ -41,6 +42,25 @@ void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& w
   if (std::pair(wire.generation(), wire.revision()) <= newest) return;
   if (told.removed && wire.generation() <= newest.first) return;
   told = {.description = wire, .declaration = declaration};
+}
+
+std::optional<Refusal> AgentRegistry::CheckKind(const Simulator& simulator,
+                                                const v1::AgentDescription& wire) const {
+  std::optional<bool> hypothetical;
+  const Agent* agent = simulator.agents().Find(wire.slot(), wire.generation());
+  if (agent != nullptr) hypothetical = agent->hypothetical();
+  const v1::AgentDescription* told = ToldOf(simulator, wire.slot());
+  if (told != nullptr && told->generation() == wire.generation()) {
+    hypothetical = told->hypothetical();
+  }
+  if (!hypothetical || *hypothetical == wire.hypothetical()) return std::nullopt;
+  Refusal refusal = At(wire);
+  refusal.reason = v1::REJECTED_OUT_OF_RANGE;
+  refusal.field = "hypothetical";
+  refusal.detail = fmt::format("{}; allowed: {}, as this agent was described first, or an agent of "
+                               "another generation",
+                               wire.hypothetical(), *hypothetical);
+  return refusal;
 }
 
 void AgentRegistry::Introduce(Simulator* simulator, const v1::AgentDescription& wire,
@@ -182,11 +202,17 @@ void AgentRegistry::SetWaiting(Simulator* simulator, std::uint32_t slot,
 bool AgentRegistry::IsDescribed(const Simulator& simulator, std::uint32_t slot,
                                 std::uint32_t generation) const {
   if (simulator.agents().Find(slot, generation) != nullptr) return true;
+  const v1::AgentDescription* told = ToldOf(simulator, slot);
+  return told != nullptr && told->generation() == generation;
+}
+
+const v1::AgentDescription* AgentRegistry::ToldOf(const Simulator& simulator,
+                                                  std::uint32_t slot) const {
   const auto told = told_.find(simulator.id());
-  if (told == told_.end()) return false;
+  if (told == told_.end()) return nullptr;
   const auto one = told->second.find(slot);
-  return one != told->second.end() && one->second.description &&
-         one->second.description->generation() == generation;
+  const bool is_described = one != told->second.end() && one->second.description;
+  return is_described ? &*one->second.description : nullptr;
 }
 
 void AgentRegistry::Enact(Simulator* simulator) {
@@ -236,14 +262,14 @@ std::optional<std::string> AgentRegistry::RoomRefusal(const Simulator& simulator
                        detection::kHalfSpacesMax);
   }
   const std::uint64_t free =
-      agents_max_ - std::min<std::uint64_t>(agents_max_, detectors_.contacts().agents());
+      agents_max_ - std::min<std::uint64_t>(agents_max_, detectors_.agents());
   if (world_.quotas().RoomFor(simulator.id(), Resource::kAgents, free) > 0) return std::nullopt;
   return fmt::format(
       "no room for another agent; allowed to this simulator now: the {} that it has (at most {}; "
       "of the {} of all simulators {} are used, and what others are guaranteed is kept)",
       world_.quotas().Used(simulator.id(), Resource::kAgents),
       world_.quotas().ShareOf(simulator.id(), Resource::kAgents).max, agents_max_,
-      detectors_.contacts().agents());
+      detectors_.agents());
 }
 
 void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting) {
@@ -285,12 +311,7 @@ void AgentRegistry::Remove(Simulator* simulator, std::uint32_t slot, std::uint64
 
 std::uint64_t AgentRegistry::DescriptionSequence(const Simulator& simulator,
                                                  std::uint32_t slot) const {
-  const auto all = told_.find(simulator.id());
-  if (all != told_.end()) {
-    const auto one = all->second.find(slot);
-    if (one != all->second.end() && one->second.description)
-      return one->second.description->sequence();
-  }
+  if (const auto* told = ToldOf(simulator, slot)) return told->sequence();
   const Agent* agent = simulator.agents().Find(slot);
   return agent != nullptr ? agent->description_sequence : 0;
 }

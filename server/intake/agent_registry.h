@@ -95,12 +95,17 @@ class AgentRegistry {
     bool removed = false;                          ///< After the description.
   };
 
+  /// A description of a known agent that would make it hypothetical, or real.
+  std::optional<Refusal> CheckKind(const Simulator& simulator,
+                                   const v1::AgentDescription& wire) const;
   void Introduce(Simulator* simulator, const v1::AgentDescription& wire,
                  detection::AgentDeclaration declaration);
   void Revise(Simulator* simulator, const v1::AgentDescription& wire,
               detection::AgentDeclaration declaration);
   /// Before the description becomes `agent`'s: what it replaces holds for states on their way.
   static void KeepFormer(const v1::AgentDescription& wire, Agent* agent);
+  /// The description of this slot that has not taken effect; null: there is none.
+  const v1::AgentDescription* ToldOf(const Simulator& simulator, std::uint32_t slot) const;
   bool IsDescribed(const Simulator& simulator, std::uint32_t slot, std::uint32_t generation) const;
   /// Of the newest description of the agent in the slot, in force or not; 0: there is none.
   std::uint64_t DescriptionSequence(const Simulator& simulator, std::uint32_t slot) const;

@@ -59,14 +59,22 @@ void AgentShapes::Refer(Simulator* simulator, std::uint32_t slot, const std::str
   if (!hash.empty()) store_.AddUser(hash, user);
   if (!before.empty() && before != hash) {
     store_.RemoveUser(before, user);
-    if (!store_.HasUsers(before)) wait_.End(before);
+    if (!HoldsTime(before)) wait_.End(before);
   }
   if (hash.empty()) return DropGrown(*simulator, agent);
-  if (!store_.HasWantedTree(hash)) wait_.Begin(hash, world_.monotonic_ns());
+  if (!store_.HasWantedTree(hash) && HoldsTime(hash)) wait_.Begin(hash, world_.monotonic_ns());
   Give(*simulator, slot, agent);
   if (before != hash && !store_.ProgressOf(simulator->id(), hash).whole) {
     Await(simulator->IdOf(slot, agent->generation()), hash);
   }
+}
+
+bool AgentShapes::HoldsTime(const std::string& hash) const {
+  return std::ranges::any_of(store_.UsersOf(hash), [this](const ShapeUser& user) {
+    const Simulator* simulator = world_.Find(user.first);
+    const Agent* agent = simulator != nullptr ? simulator->agents().Find(user.second) : nullptr;
+    return agent != nullptr && !agent->hypothetical();
+  });
 }
 
 void AgentShapes::DropGrown(const Simulator& simulator, Agent* agent) {

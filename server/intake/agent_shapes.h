@@ -21,7 +21,8 @@ namespace collision::server {
 /// `undescribed_after_s` of what is missing.
 ///
 /// A shape that becomes visible only narrows what is known, so it lowers no promise. A world in
-/// lock-step waits for it all the same (ShapeWait). One thread.
+/// lock-step waits for it all the same (ShapeWait), unless only hypothetical agents refer to it. One
+/// thread.
 class AgentShapes {
  public:
   /// Everything passed in outlives this.
@@ -64,6 +65,8 @@ class AgentShapes {
                                               Agent* agent);
   /// The agent uses no grown shape any more.
   void DropGrown(const Simulator& simulator, Agent* agent);
+  /// Whether a real agent refers to this shape: the world's time waits for no other.
+  bool HoldsTime(const std::string& hash) const;
   void Await(const detection::AgentId& id, const std::string& hash);
   void ReportMissing(const Awaited& awaited);
   void ReportRefusal(const std::string& hash, const ReadyShape& ready);

@@ -25,6 +25,12 @@ v1::ServicePhase PhaseOf(const ServiceClaim& claim) {
   }
 }
 
+/// By which rates count: the world's time where that is simulated, so that a run at any speed tells
+/// the same.
+std::int64_t RateTime(const World& world) {
+  return world.simulated() ? world.now().nanoseconds() : world.monotonic_ns();
+}
+
 /// What stands until it is acknowledged, in place of what the detector told once.
 void Set(const Lowering& lowering, v1::AgentClearance* wire) {
   wire->set_lowerings(lowering.count);
@@ -39,6 +45,7 @@ Publisher::Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* b
     : claim_(*claim),
       hello_(HelloOf(config)),
       bus_(*bus),
+      screening_(config),
       earliest_period_ns_(ToNanoseconds(config.earliest_period_s())),
       resolution_s_(config.temporal_resolution_s()) {
   streams_.reserve(1 + config.levels_size());
@@ -92,6 +99,7 @@ void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t ch
   const Lowerings& lowerings = simulator.agents().clearances().lowerings();
   clearance.set_contacts_sequence(events_.contacts);
   clearance.set_forecasts_sequence(newest_forecast_);
+  clearance.set_screening_sequence(simulator.screening_sequence());
   const auto& clearances = simulator.agents().clearances().all();
   const auto end = clearances.lower_bound((chunk + 1) * kSlotsPerChunk);
   for (auto next = clearances.lower_bound(chunk * kSlotsPerChunk); next != end; ++next) {
@@ -136,9 +144,7 @@ std::vector<Telling> Publisher::Filter(const std::vector<detection::CollisionEve
     event_log_.Add(EncodeOf(event, world, *stream));
     stream->labels.Note(event, world);
   }
-  // By the world's time where that is simulated, so that a run at any speed tells the same.
-  const std::int64_t time_ns = world.simulated() ? world.now().nanoseconds() : world.monotonic_ns();
-  return stream->filter.Take(events, world.now(), time_ns);
+  return stream->filter.Take(events, world.now(), RateTime(world));
 }
 
 void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events,
@@ -154,6 +160,22 @@ void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& even
   if (claim_.speaks() && !world.simulated()) bus_.Flush();
 }
 
+void Publisher::PublishScreening(const std::vector<detection::CollisionEvent>& events,
+                                 World* world) {
+  std::vector<v1::ScreeningEvent> messages = screening_.Take(events, *world, RateTime(*world));
+  if (claim_.speaks()) Publish(std::move(messages), world);
+}
+
+void Publisher::Publish(std::vector<v1::ScreeningEvent> messages, World* world) {
+  for (v1::ScreeningEvent& message : messages) {
+    v1::ServiceStamp& stamp = *message.mutable_event()->mutable_stamp() = NextStamp();
+    world->Find(message.simulator_id())->SetScreeningSequence(stamp.sequence());
+    v1::Output output;
+    *output.mutable_screening_event() = std::move(message);
+    bus_.Publish(output);
+  }
+}
+
 void Publisher::Hear(const v1::Input& input) {
   if (claim_.speaks() || !input.has_event_heard()) return;
   const auto stream = std::ranges::find(streams_, input.event_heard().level(), &Stream::level);
@@ -164,11 +186,12 @@ void Publisher::ForgetUndecided(Instant before) {
   for (Stream& stream : streams_) stream.inherited.DropUndecided(before);
 }
 
-void Publisher::PublishInherited(const World& world) {
+void Publisher::PublishInherited(World* world) {
   for (auto& [epoch, contact] : std::exchange(unheard_, {})) {
     PublishContact(std::move(contact), epoch);
   }
-  for (Stream& stream : streams_) PublishInherited(world, &stream);
+  for (Stream& stream : streams_) PublishInherited(*world, &stream);
+  Publish(screening_.Standing(*world), world);
 }
 
 void Publisher::PublishInherited(const World& world, Stream* stream) {
@@ -286,6 +309,7 @@ void Publisher::BeginEpoch(std::uint32_t epoch, const World& world) {
     stream.labels.Forget();
     stream.inherited.BeginEpoch(epoch);
   }
+  screening_.Forget();
   while (unheard_.size() > InheritedEvents::kUntoldMax) unheard_.pop_front();
   epoch_ = epoch;
   earliest_.reset();

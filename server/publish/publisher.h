@@ -16,6 +16,7 @@
 #include "server/publish/event_log.h"
 #include "server/publish/identity/event_labels.h"
 #include "server/publish/inherited_events.h"
+#include "server/publish/screening/screening_events.h"
 #include "server/publish/state_demand.h"
 #include "server/world/world.h"
 
@@ -62,6 +63,9 @@ class Publisher {
     PublishEvents(events, world, level + 1);
   }
 
+  /// Likewise of hypothetical agents, to their owners.
+  void PublishScreening(const std::vector<detection::CollisionEvent>& events, World* world);
+
   /// Every input, before it is applied. While this service does not speak
   /// (ServiceClaim::speaks()) it takes note of the events of another one.
   void Hear(const v1::Input& input);
@@ -73,7 +77,7 @@ class Publisher {
   /// This service has taken over and speaks from now on: publishes the contacts that the other one
   /// has not, and what stands told of pairs whose event is not over; readers know which of these
   /// they have heard. Call it before the events of a step.
-  void PublishInherited(const World& world);
+  void PublishInherited(World* world);
 
   /// Whether somebody reads the earliest intersection and `earliest_period_s` is over since it was
   /// last published or found unchanged.
@@ -105,6 +109,8 @@ class Publisher {
   /// All revisions of the detector, without stamps and numbers, which differ between instances of
   /// the service.
   const EventLog& event_log() const { return event_log_; }
+  /// Likewise of hypothetical agents.
+  const EventLog& screening_log() const { return screening_.log(); }
 
  private:
   /// The events of one detector: of contacts, or of a level.
@@ -131,6 +137,7 @@ class Publisher {
   v1::CollisionEvent EncodeOf(const detection::CollisionEvent& event, const World& world,
                               const Stream& stream) const;
   void PublishContact(v1::CollisionEvent event, std::uint32_t epoch);
+  void Publish(std::vector<v1::ScreeningEvent> messages, World* world);
   /// What nobody has heard of the epoch that ends.
   void KeepUnheard(const World& world, Stream* stream);
   void PublishChunk(const World& world, Simulator* to, std::uint32_t chunk);
@@ -143,6 +150,7 @@ class Publisher {
   std::uint64_t newest_forecast_ = 0;  ///< Its sequence; 0: there was none.
   EventLog event_log_;
   std::vector<Stream> streams_;  ///< Of contacts, then of the levels in their order.
+  ScreeningEvents screening_;
   std::deque<std::pair<std::uint32_t, v1::CollisionEvent>> unheard_;  ///< With their epochs.
   EventCounters events_;
   const std::int64_t earliest_period_ns_;

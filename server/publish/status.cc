@@ -144,6 +144,16 @@ void AddLevels(const Detectors& detectors, v1::ServiceStatus* status) {
   Count("levels_withheld", withheld, status);
 }
 
+/// What the screening of hypothetical agents costs. Nothing where there are none.
+void AddScreening(const Detectors& detectors, v1::ServiceStatus* status) {
+  if (detectors.screening() == nullptr) return;
+  const detection::Detector& detector = detectors.screening()->detector();
+  Count("hypothetical_agents", detectors.screening()->hypothetical(), status);
+  Count("screening_pairs_tracked", detector.pairs_tracked(), status);
+  Count("screening_pair_queries", detector.counters().pair_queries, status);
+  Count("screening_work_units", detector.counters().work_units, status);
+}
+
 void AddExtension(const std::string& key, std::string value, v1::ServiceStatus* status) {
   v1::KeyValue& extension = *status->add_extensions();
   extension.set_key(key);
@@ -179,7 +189,7 @@ void AddQuotas(const StatusSources& sources, v1::ServiceStatus* status) {
   constexpr double kNearlyUsedUp = 0.8;
   const ShapeCounters shapes = sources.shapes.counters();
   const std::pair<Resource, std::uint64_t> used_by_all[] = {
-      {Resource::kAgents, sources.detectors.contacts().agents()},
+      {Resource::kAgents, sources.detectors.agents()},
       {Resource::kShapes, shapes.places},
       {Resource::kShapeBytes, shapes.bytes},
       {Resource::kTreeBytes, shapes.tree_bytes}};
@@ -230,7 +240,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   status.set_now_ns(sources.world.now().nanoseconds());
   status.set_granted_until_ns(sources.world.granted().nanoseconds());
   status.set_lease_ns(wire::kServiceLease);
-  status.set_agents(static_cast<std::uint32_t>(sources.detectors.contacts().agents()));
+  status.set_agents(static_cast<std::uint32_t>(sources.detectors.agents()));
   status.set_configuration(sources.configuration);
   status.set_pairs_tracked(
       static_cast<std::uint32_t>(sources.detectors.contacts().pairs_tracked()));
@@ -239,6 +249,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   AddShapes(sources.shapes.counters(), &status);
   AddDetection(sources, &status);
   AddLevels(sources.detectors, &status);
+  AddScreening(sources.detectors, &status);
   for (const v1::Counter& counter : sources.bus.network_counters())
     *status.add_counters() = counter;
   const detection::Detector::Profile profile = sources.detectors.contacts().profile();
@@ -250,6 +261,10 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   }
   AddExtension("event_log_count", std::to_string(sources.event_log.count()), &status);
   AddExtension("event_log_hash", fmt::format("{:016x}", sources.event_log.hash()), &status);
+  if (sources.screening_log.count() > 0) {
+    AddExtension("screening_log_hash", fmt::format("{:016x}", sources.screening_log.hash()),
+                 &status);
+  }
   AddExtension("tree_builder",
                LowerCase(v1::Config::TreeBuilder_Name(sources.config.tree_builder())), &status);
   if (!sources.steps.last_clock_step.empty()) {

@@ -39,6 +39,7 @@ struct StatusSources {
   const ShapeStore& shapes;
   const Rejections& rejections;
   const EventLog& event_log;
+  const EventLog& screening_log;
   const Bus& bus;
   EventCounters events;
   StepCounters steps;

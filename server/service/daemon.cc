@@ -109,7 +109,7 @@ class Daemon::Implementation {
     if (!full_batches_.holds_clocks()) intake_.TakeClocks();
     rounds_.ApplyKept();
     if (claim_.BeginsToSpeak()) {
-      publisher_.PublishInherited(world_);
+      publisher_.PublishInherited(&world_);
       schedule_.Hasten();
     }
     const bool restarts = claim_.works() && operators_.ObeyAll(inputs);
@@ -206,7 +206,7 @@ class Daemon::Implementation {
     for (const EndedRun& ended : EndedRunsIn(heard.ended_runs())) intake_.FollowEnd(ended);
     const bool is_past = world_.simulated() && heard.epoch() < world_.epoch();
     if (claim_.phase() != ClaimPhase::kStandby || is_past || world_.IsWaking()) return;
-    if (services_.HearProgress(heard, detectors_.contacts().agents(), world_.newest())) {
+    if (services_.HearProgress(heard, detectors_.agents(), world_.newest())) {
       publisher_.ForgetUndecided(Instant::FromNanoseconds(heard.now_ns()));
       world_.ForgetLowerings();
       schedule_.Hasten();
@@ -346,6 +346,7 @@ class Daemon::Implementation {
     publisher_.PublishEvents(contacts.events(), world_);
     for (const auto& clearance : contacts.TakeChangedClearances()) world_.SetClearance(clearance);
     StepLevels(progress, &detectors_, &world_, &publisher_);
+    StepScreening(progress, &detectors_, &world_, &publisher_);
     world_.UpdateGrants();
   }
 
@@ -376,6 +377,7 @@ class Daemon::Implementation {
                     .shapes = shapes_,
                     .rejections = rejections_,
                     .event_log = publisher_.event_log(),
+                    .screening_log = publisher_.screening_log(),
                     .bus = bus_,
                     .events = publisher_.event_counters(),
                     .steps = steps_,

@@ -12,4 +12,13 @@ void StepLevels(const std::function<void()>& progress, Detectors* detectors, Wor
   }
 }
 
+void StepScreening(const std::function<void()>& progress, Detectors* detectors, World* world,
+                   Publisher* publisher) {
+  detectors->AdvanceScreening(world->now(), progress);
+  ScreeningDetector* screening = detectors->screening();
+  if (screening == nullptr) return;
+  publisher->PublishScreening(screening->detector().events(), world);
+  for (const auto& one : screening->TakeChangedClearances()) world->SetClearance(one);
+}
+
 }  // namespace collision::server

@@ -1,4 +1,4 @@
-// The part of a step that is about levels.
+// The part of a step behind the contacts: levels, and the screening of hypothetical agents.
 #pragma once
 
 #include <functional>
@@ -13,5 +13,9 @@ namespace collision::server {
 /// step, and before its grants.
 void StepLevels(const std::function<void()>& progress, Detectors* detectors, World* world,
                 Publisher* publisher);
+
+/// Likewise of hypothetical agents. Nothing but their own clearances depends on it.
+void StepScreening(const std::function<void()>& progress, Detectors* detectors, World* world,
+                   Publisher* publisher);
 
 }  // namespace collision::server

@@ -53,6 +53,7 @@ Agent* AgentTable::Add(std::uint32_t slot_index, const Agent& agent) {
   slot.ended = agent.generation_;
   slot.agent = agent;
   ++agents_;
+  hypothetical_ += agent.hypothetical();
   stated_ += slot.stated();
   return &*slot.agent;
 }
@@ -125,8 +126,9 @@ void AgentTable::Acknowledge(std::uint32_t slot, Instant stamp, std::uint64_t se
 }
 
 void AgentTable::SetClearance(const detection::AgentClearance& clearance) {
-  if (Find(clearance.agent.slot, clearance.agent.generation) == nullptr) return;
-  clearances_.Set(clearance.agent.slot, clearance);
+  const Agent* agent = Find(clearance.agent.slot, clearance.agent.generation);
+  if (agent == nullptr) return;
+  clearances_.Set(clearance.agent.slot, clearance, agent->hypothetical());
 }
 
 void AgentTable::SetClearanceOfLevel(std::size_t level,
@@ -141,6 +143,7 @@ void AgentTable::Remove(std::uint32_t slot_index) {
   slot.ended = std::uint64_t{slot.agent->generation_} + 1;
   if (!slot.waiting.empty() && slot.waiting.back().generation < slot.ended) slot.waiting.clear();
   stated_ -= slot.stated();
+  hypothetical_ -= slot.agent->hypothetical();
   slot.agent.reset();
   --agents_;
   clearances_.Forget(slot_index);
@@ -167,15 +170,18 @@ Agent& AgentTable::AgentIn(std::uint32_t slot) {
 }
 
 void AgentTable::Validate() const {
-  std::size_t agents = 0, stated = 0;
+  std::size_t agents = 0, hypothetical = 0, stated = 0;
   for (const auto& [index, slot] : slots_) {
     if (slot.agent) {
       ++agents;
+      hypothetical += slot.agent->hypothetical();
       stated += slot.stated();
       CORE_CHECK(slot.agent->generation_ >= slot.ended, "the agent has not ended", index);
     }
   }
   CORE_CHECK(agents == agents_, "described agents are counted", agents, agents_);
+  CORE_CHECK(hypothetical == hypothetical_, "hypothetical agents are counted", hypothetical,
+             hypothetical_);
   CORE_CHECK(stated == stated_, "agents with a state are counted", stated, stated_);
   clearances_.Validate();
   for (const auto& [index, clearance] : clearances_.all()) {

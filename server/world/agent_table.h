@@ -12,6 +12,7 @@
 
 #include "collision_core/detection/detector.h"
 #include "idl/messages.pb.h"
+#include "server/codec/hypothetical.h"
 #include "server/world/clearances.h"
 
 namespace collision::server {
@@ -53,6 +54,7 @@ class Agent {
     if (former && sequence > former->until_sequence) former.reset();
   }
 
+  bool hypothetical() const { return IsHypothetical(declaration); }
   std::uint32_t generation() const { return generation_; }
   std::uint32_t revision() const { return revision_; }
   /// The revision that counts for everybody, and since when, if it does not since the admission.
@@ -173,6 +175,7 @@ class AgentTable {
   }
 
   std::size_t size() const { return agents_; }    ///< Described agents.
+  std::size_t real() const { return agents_ - hypothetical_; }  ///< Of them, those that are real.
   std::size_t stated() const { return stated_; }  ///< Of them, those of which a state has arrived.
   Clearances& clearances() { return clearances_; }
   const Clearances& clearances() const { return clearances_; }
@@ -195,6 +198,7 @@ class AgentTable {
 
   std::map<std::uint32_t, Slot> slots_;
   std::size_t agents_ = 0;
+  std::size_t hypothetical_ = 0;
   std::size_t stated_ = 0;
   Clearances clearances_;
 };

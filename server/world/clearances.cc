@@ -19,7 +19,8 @@ bool OnlyRises(const detection::AgentClearance& before, const detection::AgentCl
 
 }  // namespace
 
-void Clearances::Set(std::uint32_t slot, const detection::AgentClearance& clearance) {
+void Clearances::Set(std::uint32_t slot, const detection::AgentClearance& clearance,
+                     bool hypothetical) {
   const auto [known, is_new] = clearances_.try_emplace(slot, clearance);
   if (!is_new && OnlyRises(known->second, clearance)) {
     Risen& risen = risen_[slot / kSlotsPerChunk];
@@ -29,7 +30,7 @@ void Clearances::Set(std::uint32_t slot, const detection::AgentClearance& cleara
     MarkChanged(slot);
   }
   known->second = clearance;
-  ends_.Set(SlotIndex(slot), EndOf(clearance));
+  if (!hypothetical) ends_.Set(SlotIndex(slot), EndOf(clearance));
   lowerings_.Take(slot, clearance);
 }
 
@@ -79,12 +80,14 @@ void Clearances::MarkAllChanged() {
 
 void Clearances::Validate() const {
   ends_.Validate();
-  CORE_CHECK(ends_.size() == clearances_.size(), "each clearance is queued", ends_.size(),
-             clearances_.size());
+  std::size_t queued = 0;
   for (const auto& [slot, clearance] : clearances_) {
+    if (!ends_.Contains(SlotIndex(slot))) continue;
+    ++queued;
     CORE_CHECK(ends_.KeyOf(SlotIndex(slot)) == EndOf(clearance), "a clearance is queued by its end",
                slot);
   }
+  CORE_CHECK(ends_.size() == queued, "what is queued is a clearance", ends_.size(), queued);
 }
 
 std::set<std::uint32_t> Clearances::TakeChanged(std::int64_t now_ns, std::int64_t wait_ns,

@@ -43,8 +43,10 @@ class Clearances {
   void MarkAllChanged();
 
   /// Replaces the clearance of the agent in `slot`, and marks its chunk, which may wait if the
-  /// clearance only rises.
-  void Set(std::uint32_t slot, const detection::AgentClearance& clearance);
+  /// clearance only rises. That of a `hypothetical` agent holds no time: clear_until() is that of
+  /// the others.
+  void Set(std::uint32_t slot, const detection::AgentClearance& clearance,
+           bool hypothetical = false);
 
   /// Likewise until when the agent crosses no level of this index. It is not published: only when
   /// a state of the agent is wanted depends on it.
@@ -75,7 +77,7 @@ class Clearances {
   /// By slot.
   const std::map<std::uint32_t, detection::AgentClearance>& all() const { return clearances_; }
 
-  /// Until when all of its agents are clear: Never() if there is none, Always() while one is in
+  /// Until when all of its real agents are clear: Never() if there is none, Always() while one is in
   /// contact, because a contact may end at any time. O(1).
   Instant clear_until() const { return ends_.empty() ? Instant::Never() : ends_.top_key(); }
 
@@ -103,7 +105,7 @@ class Clearances {
   std::map<std::uint32_t, detection::AgentClearance> clearances_;
   /// By slot and level.
   std::map<std::pair<std::uint32_t, std::size_t>, detection::AgentClearance> of_levels_;
-  EventQueue<SlotIndex> ends_;  // EndOf() of each clearance
+  EventQueue<SlotIndex> ends_;  // EndOf() of the clearance of each real agent
   std::set<std::uint32_t> changed_;
   std::map<std::uint32_t, Risen> risen_;  ///< The chunks that may wait.
   Lowerings lowerings_;

@@ -10,6 +10,7 @@ void Simulator::StartRun(std::uint64_t sender, std::uint32_t run,
   sender_ = sender;
   run_ = run;
   incarnation_ = 0;
+  screening_sequence_ = 0;
   standing_.Clear();
   contenders_.Clear();
   ended_ = false;

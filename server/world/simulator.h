@@ -71,14 +71,13 @@ class Simulator {
   /// Gone for good: its process or its run has ended, or no step of it follows, and its agents are
   /// removed, or it never described any. A run that follows one which the world waited for, and
   /// ends before it has told an agent, is waited for like that one.
-  bool has_left() const {
-    const bool is_awaited = time_.is_awaited() && !released_;
-    const bool is_over = time_.has_finished() || (!alive() && !is_awaited);
-    return is_over && agents_.size() == 0;
-  }
+  bool has_left() const { return tells_no_more() && agents_.size() == 0; }
 
-  /// Whether the world's time waits for it.
-  bool holds_time() const { return time_.stands_at().has_value() && !released_ && !has_left(); }
+  /// Whether the world's time waits for it. Hypothetical agents that it left behind hold no time.
+  bool holds_time() const {
+    const bool is_gone = tells_no_more() && agents_.real() == 0;
+    return time_.stands_at().has_value() && !released_ && !is_gone;
+  }
 
   detection::AgentId IdOf(std::uint32_t slot, std::uint32_t generation) const {
     return {.simulator = id_, .slot = slot, .run = run_, .generation = generation};
@@ -115,6 +114,10 @@ class Simulator {
   void CountTold() { ++told_; }
   std::uint64_t told() const { return told_; }
 
+  /// Of the newest ScreeningEvent that was told to it; 0: none was.
+  std::uint64_t screening_sequence() const { return screening_sequence_; }
+  void SetScreeningSequence(std::uint64_t sequence) { screening_sequence_ = sequence; }
+
   void CountState() { ++states_; }
   std::uint64_t states() const { return states_; }  ///< Accepted, in all runs.
 
@@ -123,6 +126,12 @@ class Simulator {
   std::uint64_t refused() const { return refused_; }
 
  private:
+  /// No step of it follows, or its process or its run has ended.
+  bool tells_no_more() const {
+    const bool is_awaited = time_.is_awaited() && !released_;
+    return time_.has_finished() || (!alive() && !is_awaited);
+  }
+
   const std::uint64_t id_;
   std::uint64_t sender_;
   std::uint32_t run_;
@@ -136,6 +145,7 @@ class Simulator {
   std::uint32_t incarnation_ = 0;
   bool follows_ = false;
   bool is_inherited_ = false;
+  std::uint64_t screening_sequence_ = 0;
   SenderClock sender_clock_;
   SimulatorTime time_;
   AgentTable agents_;

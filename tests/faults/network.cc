@@ -152,6 +152,8 @@ bool Network::IsFor(const Program& reader, const Sample& sample) const {
   const v1::Output& output = *sample.output;
   if (output.has_clearance()) return output.clearance().simulator_id() == reader.simulator;
   if (output.has_rejection()) return output.rejection().simulator_id() == reader.simulator;
+  if (output.has_screening_event())
+    return output.screening_event().simulator_id() == reader.simulator;
   return true;
 }
 

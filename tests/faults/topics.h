@@ -28,8 +28,9 @@ enum class Topic {
   kCommand,
   kServiceHello,
   kSimulatorHello,
+  kScreening,
 };
-inline constexpr std::size_t kTopics = 14;
+inline constexpr std::size_t kTopics = 16;
 
 /// Keep-last depths per instance, as in idl/dds/topics.cc and idl/PROTOCOL.md.
 struct TopicDepths {

@@ -150,6 +150,10 @@ void CheckOutput(const v1::Output& output) {
               "a breach backward in time: ", Shown{output.agent_breach()});
       dds::ToWire(output.agent_breach());
       break;
+    case v1::Output::kScreeningEvent:
+      CheckEvent(output.screening_event().event());
+      dds::ToWire(output.screening_event());
+      break;
     case v1::Output::kServiceStatus:
       dds::ToWire(output.service_status());
       break;

@@ -31,7 +31,7 @@ using Carried =
     testing::Types<v1::AgentDescription, v1::ShapePart, v1::AgentStates, v1::SimulatorClock,
                    v1::Clearance, v1::EarliestIntersection, v1::CollisionEvent, v1::Rejection,
                    v1::ServiceStatus, v1::SimulatorReport, v1::OperatorCommand, v1::ServiceHello,
-                   v1::SimulatorHello, v1::Watch, v1::AgentBreach>;
+                   v1::SimulatorHello, v1::Watch, v1::AgentBreach, v1::ScreeningEvent>;
 TYPED_TEST_SUITE(Conversion, Carried);
 
 TYPED_TEST(Conversion, RandomMessagesComeBackUnchanged) {

@@ -92,7 +92,7 @@ TEST(Encoding, OfEveryTypeIsThatOfTheGoldenSample) {
       Encoded<v1::AgentDescription, v1::ShapePart, v1::AgentStates, v1::SimulatorClock,
               v1::Clearance, v1::EarliestIntersection, v1::CollisionEvent, v1::Rejection,
               v1::ServiceStatus, v1::SimulatorReport, v1::OperatorCommand, v1::ServiceHello,
-              v1::SimulatorHello, v1::Watch, v1::AgentBreach>();
+              v1::SimulatorHello, v1::Watch, v1::AgentBreach, v1::ScreeningEvent>();
   std::string text;
   for (const auto& [name, sample] : found) text += name + " " + sample + "\n";
   EXPECT_EQ(found, Golden()) << "if the change is meant, raise WIRE_REVISION (collision.idl, "

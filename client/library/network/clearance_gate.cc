@@ -9,15 +9,17 @@ void ClearanceGate::Add(const v1::Clearance& clearance, Time now) {
   waiting_.push_back({clearance, now});
 }
 
-std::vector<v1::Clearance> ClearanceGate::Take(ContactSequence* contacts,
-                                               std::uint64_t newest_forecast, Time now) {
+std::vector<v1::Clearance> ClearanceGate::Take(ContactSequence* contacts, const Newest& newest,
+                                               Time now) {
   std::vector<v1::Clearance> passed;
   while (!waiting_.empty()) {
     auto& [clearance, since] = waiting_.front();
     const bool overdue = now - since >= patience_ || waiting_.size() > kWaitingMax;
     if (overdue) contacts->GiveUp(clearance.contacts_sequence());
     if (!contacts->HasAll(clearance.contacts_sequence())) break;
-    if (!overdue && clearance.forecasts_sequence() > newest_forecast) break;
+    const bool has_forecasts = clearance.forecasts_sequence() <= newest.forecast &&
+                               clearance.screening_sequence() <= newest.screening;
+    if (!overdue && !has_forecasts) break;
     passed.push_back(std::move(clearance));
     waiting_.pop_front();
   }

@@ -16,7 +16,8 @@
 namespace collision::client {
 
 /// Holds clearances, and with them grants, until the contacts that the service published before
-/// them have come, and in lock-step the forecasts: a simulator that is granted time has heard whom
+/// them have come, and in lock-step the forecasts and what it is told of its hypothetical agents: a
+/// simulator that is granted time has heard whom
 /// it has met and may meet. They pass in the order in which they came. One thread; depends on
 /// nothing but the calls.
 class ClearanceGate {
@@ -39,11 +40,17 @@ class ClearanceGate {
 
   void Add(const v1::Clearance& clearance, Time now);
 
-  /// The clearances that wait for nothing any more. `newest_forecast`: the highest stamp.sequence
-  /// of a forecast that has come; kAllForecasts: they are not waited for.
-  std::vector<v1::Clearance> Take(ContactSequence* contacts, std::uint64_t newest_forecast,
-                                  Time now);
-  static constexpr std::uint64_t kAllForecasts = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+
+  /// The highest stamp.sequence of a forecast, and of a ScreeningEvent, that has come; kAll: they
+  /// are not waited for.
+  struct Newest {
+    std::uint64_t forecast = kAll;
+    std::uint64_t screening = kAll;
+  };
+
+  /// The clearances that wait for nothing any more.
+  std::vector<v1::Clearance> Take(ContactSequence* contacts, const Newest& newest, Time now);
 
   /// The time until Take() gives up events; nullopt: none waits.
   std::optional<std::chrono::nanoseconds> Remaining(Time now) const;

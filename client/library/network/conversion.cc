@@ -132,6 +132,7 @@ v1::AgentDescription ToMessage(const AgentDescription& description) {
     Set(description.half_space->normal, message.mutable_half_space()->mutable_normal());
     message.mutable_half_space()->set_offset_m(description.half_space->offset_m);
   }
+  message.set_hypothetical(description.hypothetical);
   return message;
 }
 
@@ -202,6 +203,7 @@ DescribedAgent FromMessage(const v1::AgentDescription& message) {
                                              message.meets_in_assembly().end());
   agent.description.never_meets.assign(message.never_meets().begin(), message.never_meets().end());
   agent.description.tags = TagsOf(message.tags());
+  agent.description.hypothetical = message.hypothetical();
   agent.shape_hash = message.shape_hash();
   if (message.has_half_space()) {
     agent.description.half_space = {VectorOf(message.half_space().normal()),

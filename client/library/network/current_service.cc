@@ -52,6 +52,8 @@ const v1::ServiceStamp& StampOf(const v1::Output& output) {
       return output.simulator_report().stamp();
     case v1::Output::kAgentBreach:
       return output.agent_breach().stamp();
+    case v1::Output::kScreeningEvent:
+      return output.screening_event().event().stamp();
     default:
       return output.service_status().stamp();
   }
@@ -78,6 +80,10 @@ OtherServices::Instance OtherServices::InstanceOf(const v1::Output& output) {
       return {kind,
               {output.agent_breach().simulator_id(),
                in(output.agent_breach().region(), output.agent_breach().slot())}};
+    case v1::Output::kScreeningEvent:
+      return {kind,
+              {output.screening_event().simulator_id(),
+               in(output.screening_event().region(), output.screening_event().pair_slot())}};
     default:
       return {kind, {0, 0}};
   }

@@ -66,8 +66,9 @@ bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
     if (!input.has_service_heard() || !service_.Hear(input.service_heard())) continue;
     for (const v1::Output& status : others_.Statuses(now)) Handle(status, now);
   }
-  const std::uint64_t forecast = lock_step_ ? forecasts_.newest() : ClearanceGate::kAllForecasts;
-  const std::vector<v1::Clearance> passed = gate_.Take(&contacts_, forecast, now);
+  ClearanceGate::Newest newest;
+  if (lock_step_) newest = {forecasts_.newest(), screened_.newest()};
+  const std::vector<v1::Clearance> passed = gate_.Take(&contacts_, newest, now);
   for (const v1::Clearance& clearance : passed) Handle(clearance);
   Heed();
   Watch(now);
@@ -109,6 +110,11 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
         Handle(output.agent_breach());
       }
       break;
+    case v1::Output::kScreeningEvent: {
+      const v1::CollisionEvent& event = output.screening_event().event();
+      if (Accept(event.stamp(), event.now_ns(), now)) Handle(output.screening_event());
+      break;
+    }
     case v1::Output::kServiceStatus: {
       const v1::ServiceStatus& status = output.service_status();
       if (status.phase() != v1::PHASE_SERVING) break;
@@ -214,10 +220,12 @@ bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t n
 
 // The one before may come into force again: it publishes most things once, and counts on.
 void World::Implementation::ChangeService(std::uint64_t former_id) {
-  FormerService former{former_id, contacts_, std::exchange(forecasts_, {})};
+  FormerService former{former_id, contacts_, std::exchange(forecasts_, {}),
+                       std::exchange(screened_, {})};
   if (former_.id == service_.id()) {
     contacts_.GoOn(former_.contacts);
     forecasts_ = std::move(former_.forecasts);
+    screened_ = std::move(former_.screened);
   } else {
     contacts_.Restart();
   }
@@ -256,6 +264,23 @@ void World::Implementation::Handle(const v1::CollisionEvent& event) {
   } else if (filter_.IsNew(event, &contacts_)) {
     Keep(event);
   }
+}
+
+void World::Implementation::Handle(const v1::ScreeningEvent& screening) {
+  if (screening.simulator_id() != simulator_id_ || screening.run() != run_) return;
+  if (!IsForThis(screening.incarnation())) return;
+  const v1::CollisionEvent& event = screening.event();
+  names_.Hear(FromMessage(event.lower()), event.lower_label().agent_name());
+  names_.Hear(FromMessage(event.higher()), event.higher_label().agent_name());
+  if (!lock_step_) return KeepScreened(event);
+  screened_.Hear(event);
+  screened_.Hold(event);
+}
+
+void World::Implementation::KeepScreened(const v1::CollisionEvent& event) {
+  if (!screening_filter_.IsNew(event)) return;
+  events_.push_back(FromMessage(event));
+  events_.back().hypothetical = true;
 }
 
 void World::Implementation::Keep(const v1::CollisionEvent& event) {
@@ -311,6 +336,7 @@ void World::Implementation::DeliverAll() {
   for (const v1::CollisionEvent& event : forecasts_.Take()) {
     if (filter_.IsNew(event, &contacts_)) Keep(event);
   }
+  for (const v1::CollisionEvent& event : screened_.Take()) KeepScreened(event);
   DropOldEvents();
   Deliver();
 }

@@ -112,6 +112,9 @@ void World::Implementation::SetState(const AgentId& id, const State& state) {
 
 void World::Implementation::SetDescription(const AgentId& id, const AgentDescription& description) {
   Validate(description);
+  if (description.hypothetical != agents_.description(id).hypothetical()) {
+    throw std::invalid_argument("hypothetical: another value, allowed: that of AddAgent()");
+  }
   const std::string former = agents_.description(id).shape_hash();
   agents_.Describe(id, description);
   shapes_.Add(description.shape, Writer());

@@ -19,6 +19,7 @@
 #include "client/library/network/current_service.h"
 #include "client/library/network/held_forecasts.h"
 #include "client/library/network/revision_filter.h"
+#include "client/library/network/screening_filter.h"
 #include "client/library/network/transport.h"
 #include "client/library/notices/notices.h"
 #include "client/library/world/agent_table.h"
@@ -95,7 +96,7 @@ class World::Implementation {
   struct FormerService {
     std::uint64_t id = 0;
     ContactSequence contacts;
-    HeldForecasts forecasts;
+    HeldForecasts forecasts, screened;
   };
 
   Deadline Until(std::chrono::nanoseconds timeout) const;
@@ -154,6 +155,7 @@ class World::Implementation {
   void AddToGate(const v1::Clearance& clearance, CurrentService::Time now);
   void Handle(const v1::Clearance& clearance);
   void Handle(const v1::CollisionEvent& event);
+  void Handle(const v1::ScreeningEvent& screening);
   void Handle(const v1::SimulatorReport& report, Arrival::Time now);
   void Handle(const v1::AgentBreach& breach);
   bool IsOwn(const v1::AgentId& id) const;
@@ -178,6 +180,8 @@ class World::Implementation {
   /// Runs the callbacks for what has been received, or for that and the forecasts that are held.
   /// Keeps the event for OnEvent(), unless it is of a level that is not wanted.
   void Keep(const v1::CollisionEvent& event);
+  /// Likewise what is told of a hypothetical agent, if it is new.
+  void KeepScreened(const v1::CollisionEvent& event);
   void Deliver();
   void DeliverAll();
   template <typename Callback, typename... Values>
@@ -197,8 +201,10 @@ class World::Implementation {
   OtherServices others_;
   ContactSequence contacts_;
   RevisionFilter filter_;
+  ScreeningFilter screening_filter_;
   ClearanceGate gate_;
   HeldForecasts forecasts_;
+  HeldForecasts screened_;  ///< Lock-step: likewise of hypothetical agents, also contacts.
   FormerService former_;
   std::function<std::int64_t()> wall_clock_;
   ServiceEcho echo_;

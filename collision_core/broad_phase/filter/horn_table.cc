@@ -110,6 +110,7 @@ void HornTable::Fill(const AgentBound& agent, double half_margin, HornRow* fille
   row.stamp = state.stamp;
   row.group = agent.filter.group, row.mask = agent.filter.mask;
   row.assembly = agent.filter.assembly;
+  row.side = agent.filter.side & kSideMax;
   row.listing = agent.filter.partners != nullptr;
   if (half_margin != 0 || !IsPlain(bound)) {
     const double skew = bound.skew, step = limits.time_step;
@@ -189,7 +190,11 @@ motion::SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
 CollisionFilter HornTable::filter(std::uint32_t agent) const {
   const HornRow& row = rows_[agent];
   if (row.full != kPlain) return full_[row.full - 1].filter;
-  return {.group = row.group, .mask = row.mask, .assembly = row.assembly, .name = NameOf(agent)};
+  return {.group = row.group,
+          .mask = row.mask,
+          .assembly = row.assembly,
+          .name = NameOf(agent),
+          .side = row.side};
 }
 
 double HornTable::EarlierBound(const HornRow& a, const HornRow& b, Instant from, double limit) {

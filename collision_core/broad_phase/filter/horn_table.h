@@ -20,7 +20,7 @@ namespace collision::broad_phase {
 /// expiry or speed cap say beyond. Of the filter it holds what decides between agents without
 /// lists.
 struct HornRow {
-  static constexpr std::uint32_t kFullMax = (1u << 27) - 1;
+  static constexpr std::uint32_t kFullMax = (1u << 25) - 1;
 
   numeric::QuickBall ball;  ///< s0 is grown by half of the agent's greatest margin.
   Instant stamp;
@@ -28,7 +28,8 @@ struct HornRow {
   std::uint32_t mask = 0;
   std::uint32_t assembly = 0;
   /// Where HornTable keeps the whole bound and filter; kPlain: nowhere.
-  std::uint32_t full : 27 = 0;
+  std::uint32_t full : 25 = 0;
+  std::uint32_t side : 2 = 0;
   bool still : 1 = false;         ///< NeverMoves().
   bool unfilterable : 1 = false;  ///< Too large or too far for filters: tested directly.
   bool ruled : 1 = false;         ///< PairRules holds a rule of the agent.
@@ -36,7 +37,7 @@ struct HornRow {
   bool bent : 1 = false;          ///< An acceleration is known, or a jerk declared.
 
   /// Whether its filter can keep it apart from others.
-  bool filtered() const { return mask != ~0u || assembly != 0 || listing; }
+  bool filtered() const { return mask != ~0u || assembly != 0 || side != 0 || listing; }
 };
 static_assert(sizeof(HornRow) == 128, "a row is two lines of the cache");
 
@@ -91,6 +92,7 @@ class HornTable {
   bool FiltersLetMeet(std::uint32_t a, std::uint32_t b) const {
     const HornRow &of_a = rows_[a], &of_b = rows_[b];
     if (!GroupsLetMeet(of_a.group, of_a.mask, of_b.group, of_b.mask)) return false;
+    if (AreOfOneSide(of_a.side, of_b.side)) return false;
     if (of_a.listing || of_b.listing) return ListsLetMeet(a, b);
     return !AreOfOneAssembly(of_a.assembly, of_b.assembly);
   }
@@ -98,6 +100,7 @@ class HornTable {
   bool FiltersLetMeet(std::uint32_t agent, const CollisionFilter& other) const {
     const HornRow& row = rows_[agent];
     if (!GroupsLetMeet(row.group, row.mask, other.group, other.mask)) return false;
+    if (AreOfOneSide(row.side, other.side)) return false;
     const bool apart = AreOfOneAssembly(row.assembly, other.assembly);
     if (!row.listing && !other.partners) return !apart;
     return broad_phase::ListsLetMeet(ListsOf(agent), NameOf(agent), other.partners.get(),

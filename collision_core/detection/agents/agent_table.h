@@ -47,6 +47,8 @@ class AgentTable {
   /// Agents that have a name.
   std::size_t size() const { return index_.size(); }
   std::size_t half_spaces() const { return half_spaces_; }
+  /// Agents that are removed and not released.
+  std::size_t departing() const { return agents_.size() - free_.size() - index_.size(); }
   /// One more than the greatest index ever used.
   std::size_t index_end() const { return agents_.size(); }
 

@@ -253,6 +253,8 @@ void Announcer::Open(const Subject& subject, const Opening& opening) {
   event = CollisionEvent{};
   event.lower = subject.pair.lower;
   event.higher = subject.pair.higher;
+  event.lower_side = subject.pair.lower_side;
+  event.higher_side = subject.pair.higher_side;
   event.pair_slot = subject.pair.slot.value();
   event.contact = numbers_.Next(subject.pair.lower_index, subject.pair.higher_index);
   event.revision = 0;

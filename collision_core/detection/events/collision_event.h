@@ -73,6 +73,7 @@ struct RelativeVelocity {
 struct CollisionEvent {
   AgentId lower;                ///< The agent with the lower id.
   AgentId higher;               ///< The agent with the higher id.
+  std::uint32_t lower_side = 0, higher_side = 0;  ///< As declared in their filters.
   std::uint32_t pair_slot = 0;  ///< Key on the wire; reused after the pair is no longer tracked.
   std::uint32_t contact = 1;    ///< Number of the contact among the pair's, from 1.
   std::uint32_t revision = 1;   ///< From 1.

@@ -329,6 +329,8 @@ PairName TrackedPairs::NameOf(PairSlot slot) const {
           .higher = higher.id,
           .lower_index = pair.lower,
           .higher_index = pair.higher,
+          .lower_side = lower.declaration.filter.side,
+          .higher_side = higher.declaration.filter.side,
           .slot = slot,
           .margin = lower.declaration.margin + higher.declaration.margin,
           .size = lower.declaration.limits.radius + higher.declaration.limits.radius};

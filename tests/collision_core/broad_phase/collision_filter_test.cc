@@ -1,4 +1,4 @@
-// Goal:   groups, assemblies and lists decide alike in either order, in the table and for a guest,
+// Goal:   groups, assemblies, sides and lists decide alike in either order, in the table and for a guest,
 //         and a change of filter that lets an agent meet more is never taken for one that does not.
 // Method: each rule by hand; random filters, beside a definition in sets.
 #include "collision_core/broad_phase/collision_filter.h"
@@ -34,6 +34,23 @@ TEST(CollisionFilter, AgentsOfOneAssemblyDoNotMeet) {
   ExpectMeet(Member(7, 1), Member(8, 2), true);
   ExpectMeet(Member(7, 1), Member(0, 2), true);
   ExpectMeet(Member(0, 1), Member(0, 2), true);
+}
+
+TEST(CollisionFilter, AgentsOfOneSideNeverMeet) {
+  const CollisionFilter none, one{.side = 1}, other{.side = 2};
+  ExpectMeet(one, one, false);
+  ExpectMeet(one, other, true);
+  ExpectMeet(one, none, true);
+  ExpectMeet(none, none, true);
+  CollisionFilter listed = WithLists(Member(7, 1), {2}, {}), partner = Member(7, 2);
+  ExpectMeet(listed, partner, true);
+  listed.side = partner.side = 1;
+  ExpectMeet(listed, partner, false);
+  EXPECT_TRUE(KeepsApart(one));
+  EXPECT_NE(none, one);
+  EXPECT_TRUE(MayMeetMore(one, none));
+  EXPECT_TRUE(MayMeetMore(one, other));
+  EXPECT_FALSE(MayMeetMore(none, one));
 }
 
 TEST(CollisionFilter, OneListIsEnoughToMeetInAnAssembly) {
@@ -83,6 +100,7 @@ bool CanMeetByDefinition(const CollisionFilter& a, const CollisionFilter& b) {
   const PartnerLists of_a = a.partners ? *a.partners : PartnerLists();
   const PartnerLists of_b = b.partners ? *b.partners : PartnerLists();
   if (!(a.group & b.mask) || !(b.group & a.mask)) return false;
+  if (a.side != 0 && a.side == b.side) return false;
   if (Has(of_a.never_meets, b.name) || Has(of_b.never_meets, a.name)) return false;
   if (a.assembly == 0 || a.assembly != b.assembly) return true;
   return Has(of_a.meets_in_assembly, b.name) || Has(of_b.meets_in_assembly, a.name);
@@ -130,6 +148,7 @@ TEST(CollisionFilter, WhatMayMeetMoreIsNeverMissed) {
     CollisionFilter next = DrawFilter(&random);
     if (random.Chance(0.8)) next.name = before.name;
     if (random.Chance(0.5)) next.assembly = before.assembly;
+    if (random.Chance(0.5)) next.side = before.side;
     const bool may = MayMeetMore(before, next);
     ++(may ? more : not_more);
     for (int other = 0; other < 20 && !may; ++other) {

@@ -1,4 +1,4 @@
-// Filters with assemblies and lists, at random.
+// Filters with assemblies, sides and lists, at random.
 #pragma once
 
 #include <memory>
@@ -15,6 +15,7 @@ inline CollisionFilter DrawFilter(Random* random) {
   };
   CollisionFilter filter{.assembly = draw(4), .name = draw(12)};
   if (random->Chance(0.1)) filter.mask = 2;
+  if (random->Chance(0.4)) filter.side = draw(kSideMax + 1);
   if (random->Chance(0.6)) return filter;
   PartnerLists lists;
   for (std::uint32_t name = 1; name < 12; ++name) {

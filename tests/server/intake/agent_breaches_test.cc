@@ -33,20 +33,20 @@ class AgentBreachesTest : public testing::Test {
     motion::MotionState state;
     std::uint64_t& count = counts_[id];
     if (count == 0) {
-      ASSERT_TRUE(detector_.Admit(id, ball, state, Instant::FromNanoseconds(0)));
+      ASSERT_TRUE(detectors_.Admit(id, ball, state, Instant::FromNanoseconds(0)));
     }
     ++count;
     state.stamp = Instant::FromNanoseconds(static_cast<std::int64_t>(count) * 1'000'000);
     state.p_WA.x() = static_cast<double>(count);
-    ASSERT_EQ(detector_.Update(id, state, state.stamp), detection::UpdateOutcome::kBreached);
+    ASSERT_EQ(detectors_.Update(id, state, state.stamp), detection::UpdateOutcome::kBreached);
     breaches_.Add(*world_.Find(id.simulator), id, count);
   }
 
   static constexpr std::uint64_t kSender = 10;
   const v1::Config config_ = CompleteConfig({});
   World world_{config_};
-  detection::Detector detector_{detection::DetectorOptions{}};
-  AgentBreaches breaches_{&world_, &detector_};
+  Detectors detectors_{config_};
+  AgentBreaches breaches_{&world_, &detectors_};
   std::map<detection::AgentId, std::uint64_t> counts_;
 };
 

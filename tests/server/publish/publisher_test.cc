@@ -203,7 +203,7 @@ TEST(Publisher, AStandbyTellsOfEachLevelWhatTheOtherServiceHasNot) {
   heard.mutable_event_heard()->set_contacts_sequence(5);
   heard.mutable_event_heard()->mutable_stamp()->set_epoch(1);
   publisher.Hear(heard);
-  publisher.PublishInherited(one.world);
+  publisher.PublishInherited(&one.world);
   std::string told;
   for (const v1::Output& output : bus.outputs) {
     told += "[" + output.collision_event().level() + "] ";

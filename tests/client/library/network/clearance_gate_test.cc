@@ -25,7 +25,7 @@ class ClearanceGateTest : public testing::Test {
   /// The contacts named by the clearances that pass.
   std::vector<std::uint64_t> Passed(ClearanceGate::Time now = kStart) {
     std::vector<std::uint64_t> passed;
-    for (const v1::Clearance& clearance : gate_.Take(&contacts_, newest_forecast_, now)) {
+    for (const v1::Clearance& clearance : gate_.Take(&contacts_, newest_, now)) {
       passed.push_back(clearance.contacts_sequence());
     }
     return passed;
@@ -33,7 +33,7 @@ class ClearanceGateTest : public testing::Test {
 
   using Numbers = std::vector<std::uint64_t>;
   ContactSequence contacts_;
-  std::uint64_t newest_forecast_ = ClearanceGate::kAllForecasts;
+  ClearanceGate::Newest newest_;
   ClearanceGate gate_;
 };
 
@@ -73,12 +73,12 @@ TEST_F(ClearanceGateTest, AfterThePatienceTheContactsCountAsMissed) {
 TEST_F(ClearanceGateTest, AClearanceWaitsForAForecastThatIsNotOlderAndThenForThePatience) {
   v1::Clearance clearance = Naming(0);
   clearance.set_forecasts_sequence(20);
-  newest_forecast_ = 19;
+  newest_.forecast = 19;
   gate_.Add(clearance, kStart);
   EXPECT_EQ(Passed(), Numbers{});
-  newest_forecast_ = 21;  // 20 was overwritten
+  newest_.forecast = 21;  // 20 was overwritten
   EXPECT_EQ(Passed(), Numbers{0});
-  newest_forecast_ = 19;
+  newest_.forecast = 19;
   gate_.Add(clearance, kStart);
   EXPECT_EQ(Passed(kStart + ClearanceGate::kPatience - nanoseconds(1)), Numbers{});
   EXPECT_EQ(Passed(kStart + ClearanceGate::kPatience), Numbers{0});

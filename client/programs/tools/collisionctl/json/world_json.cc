@@ -64,6 +64,7 @@ std::string DeclarationJson(const v1::AgentDescription& description) {
                                            description.meets_in_assembly().end()}))
       .Add("never_meets",
            JsonTexts({description.never_meets().begin(), description.never_meets().end()}))
+      .Flag("hypothetical", description.hypothetical())
       .Json();
 }
 

@@ -70,6 +70,7 @@ std::vector<std::string> AgentRow(const AgentView& agent) {
                                                   : ""));
   }
   row.back() += PresenceText(agent.presence);
+  if (description.hypothetical()) row.back() += ", hypothetical";
   return row;
 }
 

@@ -117,6 +117,7 @@ void FindConfigured(const WorldView& view, PairReport* report) {
 void FindFilters(const WorldView& view, PairReport* report) {
   const v1::AgentDescription& a = report->a.agent.description;
   const v1::AgentDescription& b = report->b.agent.description;
+  if (a.hypothetical() && b.hypothetical()) report->apart.push_back("both are hypothetical");
   if (a.simulator_id() == b.simulator_id()) {
     if (AreListed(a, b, true)) report->apart.push_back("one lists the other in never_meets");
     const bool together = !a.assembly().empty() && a.assembly() == b.assembly();
