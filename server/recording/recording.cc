@@ -12,15 +12,13 @@
 #include <system_error>
 #include <utility>
 
+#include "idl/limits.h"
 #include "server/config/config.h"
 #include "server/process/version.h"
 #include "server/process/write_all.h"
 
 namespace collision::server {
 namespace {
-
-/// Of the messages in it: those of wire revision 2. Formats 1 and 2 hold an older one.
-constexpr std::uint32_t kRecordingFormat = 3;
 
 /// A state is some 250 bytes, so that all states of 100,000 agents are below this; a length beyond
 /// it is something else read as one.
@@ -58,7 +56,7 @@ RecordingWriter::RecordingWriter(const std::string& path, const v1::Config& conf
   file_ = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file_ < 0) throw std::runtime_error(path + ": cannot be written: " + CauseOf(errno));
   v1::RecordingEntry entry;
-  entry.mutable_header()->set_format(kRecordingFormat);
+  entry.mutable_header()->set_format(wire::kRecordingFormat);
   entry.mutable_header()->set_version(Version());
   *entry.mutable_header()->mutable_config() = config;
   v1::ServiceClaim& claimed = *entry.mutable_header()->mutable_claim();
@@ -148,10 +146,10 @@ RecordingReader::RecordingReader(const std::string& path)
   if (!entry.has_header())
     throw std::runtime_error(path + ": byte 0: not a recording: it has no header");
   const std::uint32_t format = entry.header().format();
-  if (format != kRecordingFormat) {
+  if (format != wire::kRecordingFormat) {
     throw std::runtime_error(path + ": byte 0: format " + std::to_string(format) + ", written by " +
                              "version \"" + entry.header().version() + "\"; this program reads " +
-                             "format " + std::to_string(kRecordingFormat) +
+                             "format " + std::to_string(wire::kRecordingFormat) +
                              " only: replay it with the version that wrote it");
   }
   if (!entry.header().has_config()) {

@@ -13,6 +13,7 @@
 #include "client/programs/tools/suggest_bounds/bounds_page.h"
 #include "client/programs/tools/suggest_bounds/command.h"
 #include "client/programs/tools/suggest_bounds/motion_file.h"
+#include "idl/limits.h"
 #include "idl/recording.pb.h"
 #include "tests/client/programs/tools/collisionctl/json/schema_check.h"
 #include "tests/support/random.h"
@@ -76,7 +77,7 @@ class MotionFileTest : public testing::Test {
   static std::string Recording() {
     std::ostringstream text;
     v1::RecordingEntry header, batch;
-    header.mutable_header()->set_format(3);
+    header.mutable_header()->set_format(wire::kRecordingFormat);
     header.mutable_header()->set_version("test");
     auto* inputs = batch.mutable_batch();
     *inputs->add_inputs()->mutable_agent_description() = DescriptionOf(0, "ada");
