@@ -156,9 +156,9 @@ class World {
   /// revision that tells something new once. Those of levels come where WorldOptions::levels names
   /// them; those of hypothetical agents say so (Event::hypothetical). When a grant counts, the
   /// contacts that the service published before it have been delivered, or count as missed. Without
-  /// a callback they are kept until TakeEvents(): at most 65536, then the oldest are dropped and counted by
-  /// events_lost(). A callback may call everything but WaitForService(), Join(), AdvanceTo() and
-  /// Poll(), which throw std::logic_error.
+  /// a callback they are kept until TakeEvents(): at most 65536, then the oldest are dropped and
+  /// counted by events_lost(). A callback may call everything but WaitForService(), Join(),
+  /// AdvanceTo() and Poll(), which throw std::logic_error.
   void OnEvent(std::function<void(const Event&)> callback);
   std::vector<Event> TakeEvents();
   std::uint64_t events_lost() const;

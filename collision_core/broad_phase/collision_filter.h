@@ -77,8 +77,8 @@ bool MayMeetMore(const CollisionFilter& before, const CollisionFilter& next);
 
 /// Whether the filter says more than a name.
 inline bool KeepsApart(const CollisionFilter& filter) {
-  return filter.group != 1 || filter.mask != ~0u || filter.assembly != 0 ||
-         filter.side != 0 || filter.partners;
+  return filter.group != 1 || filter.mask != ~0u || filter.assembly != 0 || filter.side != 0 ||
+         filter.partners;
 }
 
 }  // namespace collision::broad_phase

@@ -132,10 +132,12 @@ class Builder {
 Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
                         dds_duration_t lease, const dds_listener_t* listener, Inbox* inbox) {
   Builder builder(participant, lease);
-  const auto& [of_simulators, of_service, earliest, screening, of_other_services, events_too, as_simulator,
-               as_service, of_operators, as_operator, of_watchers, as_watcher] = partitions;
+  const auto& [of_simulators, of_service, earliest, screening, of_other_services, events_too,
+               as_simulator, as_service, of_operators, as_operator, of_watchers, as_watcher] =
+      partitions;
   if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener, inbox);
-  if (of_service) builder.Read(Source::kService, *of_service, listener, nullptr, earliest, screening);
+  if (of_service)
+    builder.Read(Source::kService, *of_service, listener, nullptr, earliest, screening);
   if (of_other_services) builder.ReadOtherServices(*of_other_services, events_too, listener);
   if (as_service) builder.Write(Source::kService, *as_service);
   if (as_simulator) builder.Write(Source::kSimulators, *as_simulator);

@@ -1,4 +1,4 @@
-// Every detector of the service: that of contacts, those of the levels, that of hypothetical agents.
+// Every detector of the service: of contacts, of the levels, and of hypothetical agents.
 #pragma once
 
 #include <cstdint>

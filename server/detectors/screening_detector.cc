@@ -48,8 +48,7 @@ bool ScreeningDetector::Remove(const detection::AgentId& id) {
 
 void ScreeningDetector::Advance(Instant now, const std::function<void()>& progress) {
   detector_.Advance(now, progress);
-  is_over_ =
-      hypothetical_.empty() && detector_.departing() == 0 && detector_.pairs_tracked() == 0;
+  is_over_ = hypothetical_.empty() && detector_.departing() == 0 && detector_.pairs_tracked() == 0;
 }
 
 std::vector<detection::AgentClearance> ScreeningDetector::TakeChangedClearances() {

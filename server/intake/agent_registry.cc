@@ -57,9 +57,10 @@ std::optional<Refusal> AgentRegistry::CheckKind(const Simulator& simulator,
   Refusal refusal = At(wire);
   refusal.reason = v1::REJECTED_OUT_OF_RANGE;
   refusal.field = "hypothetical";
-  refusal.detail = fmt::format("{}; allowed: {}, as this agent was described first, or an agent of "
-                               "another generation",
-                               wire.hypothetical(), *hypothetical);
+  refusal.detail = fmt::format(
+      "{}; allowed: {}, as this agent was described first, or an agent of "
+      "another generation",
+      wire.hypothetical(), *hypothetical);
   return refusal;
 }
 

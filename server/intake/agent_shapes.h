@@ -21,8 +21,8 @@ namespace collision::server {
 /// `undescribed_after_s` of what is missing.
 ///
 /// A shape that becomes visible only narrows what is known, so it lowers no promise. A world in
-/// lock-step waits for it all the same (ShapeWait), unless only hypothetical agents refer to it. One
-/// thread.
+/// lock-step waits for it all the same (ShapeWait), unless only hypothetical agents refer to it.
+/// One thread.
 class AgentShapes {
  public:
   /// Everything passed in outlives this.

@@ -16,7 +16,7 @@
 #include "server/publish/event_log.h"
 #include "server/publish/identity/event_labels.h"
 #include "server/publish/inherited_events.h"
-#include "server/publish/screening/screening_events.h"
+#include "server/publish/screening_events.h"
 #include "server/publish/state_demand.h"
 #include "server/world/world.h"
 

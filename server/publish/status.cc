@@ -8,8 +8,8 @@
 
 #include "idl/limits.h"
 #include "server/process/version.h"
-#include "server/publish/names_text.h"
-#include "server/publish/wait_text.h"
+#include "server/publish/text/names_text.h"
+#include "server/publish/text/wait_text.h"
 
 namespace collision::server {
 namespace {

@@ -8,7 +8,7 @@
 #include "idl/identity.h"
 #include "idl/limits.h"
 #include "server/process/logging.h"
-#include "server/publish/names_text.h"
+#include "server/publish/text/names_text.h"
 
 namespace collision::server {
 namespace {

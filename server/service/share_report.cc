@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "idl/limits.h"
-#include "server/publish/names_text.h"
+#include "server/publish/text/names_text.h"
 
 namespace collision::server {
 

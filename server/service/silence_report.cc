@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "idl/limits.h"
-#include "server/publish/names_text.h"
+#include "server/publish/text/names_text.h"
 
 namespace collision::server {
 

@@ -174,7 +174,7 @@ class AgentTable {
     for (const auto& [slot, content] : slots_) visit(slot);
   }
 
-  std::size_t size() const { return agents_; }    ///< Described agents.
+  std::size_t size() const { return agents_; }                  ///< Described agents.
   std::size_t real() const { return agents_ - hypothetical_; }  ///< Of them, those that are real.
   std::size_t stated() const { return stated_; }  ///< Of them, those of which a state has arrived.
   Clearances& clearances() { return clearances_; }

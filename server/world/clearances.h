@@ -77,8 +77,8 @@ class Clearances {
   /// By slot.
   const std::map<std::uint32_t, detection::AgentClearance>& all() const { return clearances_; }
 
-  /// Until when all of its real agents are clear: Never() if there is none, Always() while one is in
-  /// contact, because a contact may end at any time. O(1).
+  /// Until when all of its real agents are clear: Never() if there is none, Always() while one is
+  /// in contact, because a contact may end at any time. O(1).
   Instant clear_until() const { return ends_.empty() ? Instant::Never() : ends_.top_key(); }
 
   /// Walks everything: each clearance has its place in the queue.

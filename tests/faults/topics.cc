@@ -69,8 +69,8 @@ Address AddressOf(const v1::Output& message) {
       return {Topic::kBreach,
               Key(message.agent_breach().simulator_id(), message.agent_breach().slot())};
     case v1::Output::kScreeningEvent:
-      return {Topic::kScreening, Key(message.screening_event().simulator_id(),
-                                     message.screening_event().pair_slot())};
+      return {Topic::kScreening,
+              Key(message.screening_event().simulator_id(), message.screening_event().pair_slot())};
     default:
       return {Topic::kStatus, Key(message.service_status().service_id())};
   }

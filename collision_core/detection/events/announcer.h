@@ -16,10 +16,10 @@ namespace collision::detection {
 struct PairName {
   AgentId lower, higher;
   AgentIndex lower_index, higher_index;
-  std::uint32_t lower_side = 0, higher_side = 0;  ///< As in CollisionEvent.
   PairSlot slot;
   double margin = 0;  ///< As in CollisionEvent.
   double size = 0;    ///< The sum of the radii of both [m]: no contact is deeper.
+  std::uint32_t lower_side = 0, higher_side = 0;  ///< As in CollisionEvent.
 };
 
 /// What has been published about a pair.

@@ -71,8 +71,8 @@ struct RelativeVelocity {
 /// One revision of the event about one contact of one pair. (lower, higher, contact) names the
 /// event; a higher revision replaces a lower one. World frame W, SI units.
 struct CollisionEvent {
-  AgentId lower;                ///< The agent with the lower id.
-  AgentId higher;               ///< The agent with the higher id.
+  AgentId lower;                                  ///< The agent with the lower id.
+  AgentId higher;                                 ///< The agent with the higher id.
   std::uint32_t lower_side = 0, higher_side = 0;  ///< As declared in their filters.
   std::uint32_t pair_slot = 0;  ///< Key on the wire; reused after the pair is no longer tracked.
   std::uint32_t contact = 1;    ///< Number of the contact among the pair's, from 1.

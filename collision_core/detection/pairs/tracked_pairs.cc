@@ -329,11 +329,11 @@ PairName TrackedPairs::NameOf(PairSlot slot) const {
           .higher = higher.id,
           .lower_index = pair.lower,
           .higher_index = pair.higher,
-          .lower_side = lower.declaration.filter.side,
-          .higher_side = higher.declaration.filter.side,
           .slot = slot,
           .margin = lower.declaration.margin + higher.declaration.margin,
-          .size = lower.declaration.limits.radius + higher.declaration.limits.radius};
+          .size = lower.declaration.limits.radius + higher.declaration.limits.radius,
+          .lower_side = lower.declaration.filter.side,
+          .higher_side = higher.declaration.filter.side};
 }
 
 // Both keys cover the pair from now on. False: they cannot, since a state lies beyond what is

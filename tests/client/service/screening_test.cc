@@ -44,7 +44,8 @@ class ScreeningTest : public testing::Test {
   }
 
   static State At(std::int64_t t, double x, double v) {
-    return {.stamp_ns = t, .position_m = {x + 1e-9 * v * static_cast<double>(t), 0, 0},
+    return {.stamp_ns = t,
+            .position_m = {x + 1e-9 * v * static_cast<double>(t), 0, 0},
             .velocity_m_s = {v, 0, 0}};
   }
 
@@ -80,12 +81,14 @@ TEST_F(ScreeningTest, TheOwnerHearsWhatItsPlanWouldMeet) {
   EXPECT_GE(heard_.back().begin.latest_ns, 5000 * kMillisecond);
   EXPECT_TRUE(heard_by_other_.empty());
   EXPECT_EQ(pilot_.contacts_missed(), 0u);
-  EXPECT_NE(EventLine(heard_[0], [](const AgentId&) { return "x"; }, 0).find("hypothetical"),
+  EXPECT_NE(EventLine(
+                heard_[0], [](const AgentId&) { return "x"; }, 0)
+                .find("hypothetical"),
             std::string::npos);
 }
 
-// Goal:   with the first new grant after a plan was told its owner knows what it may meet and until when
-//         it is clear.
+// Goal:   with the first new grant after a plan was told its owner knows what it may meet, and
+//         until when it is clear.
 TEST_F(ScreeningTest, TheAnswerComesWithTheNextGrant) {
   const Agent rock = other_.AddAgent(Ball("rock"), At(0, 0, 0));
   AdvanceTo(0);

@@ -1,5 +1,6 @@
-// Goal:   groups, assemblies, sides and lists decide alike in either order, in the table and for a guest,
-//         and a change of filter that lets an agent meet more is never taken for one that does not.
+// Goal:   groups, assemblies, sides and lists decide alike in either order, in the table and for a
+//         guest, and a change of filter that lets an agent meet more is never taken for one that
+//         does not.
 // Method: each rule by hand; random filters, beside a definition in sets.
 #include "collision_core/broad_phase/collision_filter.h"
 

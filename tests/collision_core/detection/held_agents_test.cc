@@ -4,8 +4,8 @@
 //         that no state has followed yet.
 #include <gtest/gtest.h>
 
-#include "tests/collision_core/detection/line.h"
 #include "collision_core/shape/shape.h"
+#include "tests/collision_core/detection/line.h"
 #include "tests/support/meshes.h"
 
 namespace collision::detection {
@@ -41,7 +41,8 @@ TEST(HeldAgents, AreTakenOverInMidFlight) {
   first.events.clear();
   first.RunTo(7);
   second.RunTo(7);
-  const auto expected = first.With(EventStatus::kConfirmed), found = second.With(EventStatus::kConfirmed);
+  const auto expected = first.With(EventStatus::kConfirmed),
+             found = second.With(EventStatus::kConfirmed);
   ASSERT_FALSE(found.empty());
   EXPECT_LE(found.back().begin.earliest, At(5)) << "|22 - 4 t| = 2";
   EXPECT_GE(found.back().begin.latest, At(5));
@@ -74,8 +75,8 @@ TEST(HeldAgents, HaveNoShapeOnceItWasDeclaredAnew) {
                                             smaller = shape::Shape::Build(Cube(0.5));
   const double radius = cube->facts().radius;
   Line line;
-  line.detector.Admit(Id(1), {.limits = {radius, 0}, .shape = cube},
-                      State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+  line.detector.Admit(Id(1), {.limits = {radius, 0}, .shape = cube}, State(0, {0, 0, 0}, {0, 0, 0}),
+                      At(0));
   line.detector.Redeclare(Id(1), {.limits = {radius, 0}, .shape = smaller}, At(0));
   Line second = TakenOver(line), third = TakenOver(second);
   for (Line* one : {&second, &third}) {

@@ -1,6 +1,6 @@
 // Goal:   a text names as many simulators as fit, whole, and says how many it leaves out.
 // Method: lists at and around the bound.
-#include "server/publish/names_text.h"
+#include "server/publish/text/names_text.h"
 
 #include <gtest/gtest.h>
 

@@ -111,14 +111,15 @@ class Skies {
     v1::AgentStates chunk = Chunk(name);
     for (const Flight& flight : flights_) {
       if (flight.simulator != name) continue;
-      v1::AgentState& state = *chunk.add_states() = State(flight.slot, stamp_ns, ++simulator.states);
+      v1::AgentState& state = *chunk.add_states() =
+          State(flight.slot, stamp_ns, ++simulator.states);
       state.mutable_position_m()->set_x(flight.x + flight.speed * now());
       state.mutable_position_m()->set_y(flight.y);
       state.mutable_velocity_m_s()->set_x(flight.speed);
     }
     inputs_.push_back(From(SenderOf(name), chunk));
-    inputs_.push_back(From(SenderOf(name), ClockAfter(name, stamp_ns, simulator.states,
-                                                      simulator.descriptions)));
+    inputs_.push_back(
+        From(SenderOf(name), ClockAfter(name, stamp_ns, simulator.states, simulator.descriptions)));
   }
 
   ScriptedDaemon daemon_;
@@ -149,9 +150,8 @@ TEST(Screening, TellsTheOwnerInTime) {
   EXPECT_EQ(first.status(), v1::EVENT_POSSIBLE);
   EXPECT_LT(first.now_ns(), 4'000'000'000);
   EXPECT_LE(first.begin().earliest_ns(), 5'000'000'000);
-  EXPECT_EQ(first.lower_label().agent_name(), first.lower().simulator_id() == SimulatorId("alpha")
-                                                  ? "agent 0"
-                                                  : "agent 1");
+  EXPECT_EQ(first.lower_label().agent_name(),
+            first.lower().simulator_id() == SimulatorId("alpha") ? "agent 0" : "agent 1");
   ASSERT_FALSE(skies.Screened(v1::EVENT_CONFIRMED).empty());
   ASSERT_EQ(skies.Screened(v1::EVENT_ENDED).size(), 1u);
   EXPECT_TRUE(Brackets(skies.Screened(v1::EVENT_CONFIRMED).back().begin(), 5, 2e-3));
@@ -186,7 +186,8 @@ std::vector<std::string> ToldToOthers(const std::vector<v1::Output>& outputs) {
   for (v1::Output output : outputs) {
     if (output.has_service_status() || output.has_service_hello()) continue;
     if (output.has_screening_event()) continue;
-    if (output.has_rejection() && output.rejection().simulator_id() == SimulatorId("beta")) continue;
+    if (output.has_rejection() && output.rejection().simulator_id() == SimulatorId("beta"))
+      continue;
     if (output.has_simulator_report() &&
         output.simulator_report().simulator_id() == SimulatorId("beta")) {
       continue;
@@ -219,7 +220,10 @@ TEST(Screening, ChangesNothingForOthers) {
   for (Skies* skies : {&without, &with}) AddRealOnes(skies);
   with.Add({.simulator = "beta", .slot = 7, .x = 1, .speed = 0, .hypothetical = true});
   with.Add({.simulator = "beta", .slot = 8, .x = 22, .speed = -4, .y = 2, .hypothetical = true});
-  with.Add({.simulator = "beta", .slot = 9, .x = 3, .hypothetical = true,
+  with.Add({.simulator = "beta",
+            .slot = 9,
+            .x = 3,
+            .hypothetical = true,
             .shape_hash = std::string(32, 'x')});
   for (Skies* skies : {&without, &with}) skies->RunTo(9);
   ASSERT_FALSE(with.Screened(v1::EVENT_CONFIRMED).empty());
@@ -229,7 +233,8 @@ TEST(Screening, ChangesNothingForOthers) {
   ASSERT_GT(expected.size(), 100u);
   ASSERT_EQ(told.size(), expected.size());
   for (std::size_t k = 0; k < told.size(); ++k) ASSERT_EQ(told[k], expected[k]) << k;
-  EXPECT_EQ(with.daemon().daemon().event_log().hash(), without.daemon().daemon().event_log().hash());
+  EXPECT_EQ(with.daemon().daemon().event_log().hash(),
+            without.daemon().daemon().event_log().hash());
   EXPECT_GT(with.daemon().daemon().event_log().count(), 5u);
   const v1::ServiceStatus a = without.daemon().status(), b = with.daemon().status();
   EXPECT_EQ(a.pairs_tracked(), b.pairs_tracked());

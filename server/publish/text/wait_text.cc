@@ -1,4 +1,4 @@
-#include "server/publish/wait_text.h"
+#include "server/publish/text/wait_text.h"
 
 #include <spdlog/fmt/fmt.h>
 

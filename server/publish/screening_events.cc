@@ -1,4 +1,4 @@
-#include "server/publish/screening/screening_events.h"
+#include "server/publish/screening_events.h"
 
 #include "server/codec/encode.h"
 #include "server/codec/hypothetical.h"

@@ -1,4 +1,4 @@
-#include "server/publish/names_text.h"
+#include "server/publish/text/names_text.h"
 
 #include <spdlog/fmt/fmt.h>
 
