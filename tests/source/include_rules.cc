@@ -110,7 +110,8 @@ const std::vector<Layer>& Layers() {
         programs + "simulators/motion/", programs + "simulators/player/"}},
       // Asks what the service asks, from what a monitor knows.
       {programs + "tools/collisionctl/why/",
-       {"idl/", api, library, programs + "shared/", programs + "tools/", core + "intersection/"}},
+       {"idl/", api, library, programs + "shared/", programs + "tools/", core + "broad_phase/",
+        core + "intersection/"}},
       {programs + "tools/",
        {"idl/", api, library, checker, programs + "shared/", programs + "tools/"}},
       {programs + "shared/", {"idl/", api, library, programs + "shared/"}},

@@ -8,6 +8,7 @@
 #include "client/library/network/conversion.h"
 #include "client/library/validation.h"
 #include "client/programs/tools/collisionctl/why/agent_lookup.h"
+#include "collision_core/broad_phase/half_space.h"
 #include "collision_core/intersection/earliest_intersection.h"
 #include "idl/hello_extensions.h"
 
@@ -41,7 +42,7 @@ motion::SpaceTimeBound ToCore(const BoundReport& report, double skew) {
 
 /// Why nothing can be computed of the agent; empty: all can.
 std::string Unusable(const AgentView& agent) {
-  if (!(agent.description.radius_m() > 0)) return "nothing is known of it";
+  if (!IsDescribed(agent.description)) return "nothing is known of it";
   if (!agent.state) return "no state of it has come";
   try {
     Validate(FromMessage(agent.description).description);
@@ -71,6 +72,7 @@ BoundReport BoundOf(const AgentView& agent, const PairReport& report, const Worl
                     .fresh = {}};
   if (!bound.unusable.empty()) return bound;
   bound.age = Seconds(agent.state->stamp_ns(), report.now_ns);
+  if (agent.description.has_half_space()) return bound;
   bound.now = ReachAfter(std::max(0.0, bound.age), report.skew, agent.description, *agent.state);
   return bound;
 }
@@ -134,25 +136,54 @@ void FindFilters(const WorldView& view, PairReport* report) {
   FindConfigured(view, report);
 }
 
+/// Of two that may be half-spaces, at most one of which is.
+struct Meeting {
+  double distance;
+  Instant earliest;
+};
+
+Meeting MeetingOfBalls(const PairReport& report, double margin, Instant now) {
+  const motion::SpaceTimeBound a = ToCore(report.a, report.skew);
+  const motion::SpaceTimeBound b = ToCore(report.b, report.skew);
+  const double distance = (CentreAfter(report.a.age, *report.a.agent.state) -
+                           CentreAfter(report.b.age, *report.b.agent.state))
+                              .norm();
+  return {distance,
+          intersection::EarliestIntersection(a, b, now, Instant::Never(), margin).instant()};
+}
+
+Meeting MeetingOf(const v1::HalfSpace& told, const BoundReport& agent, const PairReport& report,
+                  double margin, Instant now) {
+  const broad_phase::HalfSpace half_space{ToCore(told.normal()), told.offset_m()};
+  const intersection::BroadQuery query{intersection::BoundKind::kHorn, now, Instant::Never()};
+  const Eigen::Vector3d centre = CentreAfter(agent.age, *agent.agent.state);
+  return {half_space.normal.dot(centre) - half_space.offset,
+          EarliestIntersectionOf(query, half_space, {ToCore(agent, report.skew)}, margin).instant()};
+}
+
 /// Distance, earliest time, and how far each can be by then.
 void Meet(PairReport* report) {
-  const motion::SpaceTimeBound a = ToCore(report->a, report->skew);
-  const motion::SpaceTimeBound b = ToCore(report->b, report->skew);
-  const v1::AgentState &state_a = *report->a.agent.state, &state_b = *report->b.agent.state;
   const v1::AgentDescription& of_a = report->a.agent.description;
   const v1::AgentDescription& of_b = report->b.agent.description;
-  report->distance =
-      (CentreAfter(report->a.age, state_a) - CentreAfter(report->b.age, state_b)).norm();
+  if (of_a.has_half_space() && of_b.has_half_space()) {
+    return report->apart.push_back("both are half-spaces");
+  }
   const double margin = of_a.margin_m() + of_b.margin_m();
-  report->gap = report->distance - of_a.radius_m() - of_b.radius_m() - margin -
-                report->a.now.Sum() - report->b.now.Sum();
   const Instant now = Instant::FromNanoseconds(report->now_ns);
-  const Instant earliest =
-      intersection::EarliestIntersection(a, b, now, Instant::Never(), margin).instant();
+  const auto [distance, earliest] =
+      of_a.has_half_space() ? MeetingOf(of_a.half_space(), report->b, *report, margin, now)
+      : of_b.has_half_space() ? MeetingOf(of_b.half_space(), report->a, *report, margin, now)
+                              : MeetingOfBalls(*report, margin, now);
+  report->distance = distance;
+  report->gap = distance - of_a.radius_m() - of_b.radius_m() - margin - report->a.now.Sum() -
+                report->b.now.Sum();
   report->earliest_ns = earliest.nanoseconds();
-  if (NeverMoves(a) && NeverMoves(b)) report->apart.push_back("neither can move");
+  if (NeverMoves(ToCore(report->a, report->skew)) && NeverMoves(ToCore(report->b, report->skew))) {
+    report->apart.push_back("neither can move");
+  }
   if (earliest.is_never()) return;
   for (BoundReport* one : {&report->a, &report->b}) {
+    if (one->agent.description.has_half_space()) continue;
     const v1::AgentState& state = *one->agent.state;
     const double elapsed = Seconds(state.stamp_ns(), *report->earliest_ns);
     const double newest = std::min(elapsed, Seconds(report->now_ns, *report->earliest_ns));

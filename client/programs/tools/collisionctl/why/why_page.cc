@@ -29,6 +29,11 @@ std::string VectorText(const v1::Vector3& v) {
 std::string BodyText(const v1::AgentDescription& description) {
   constexpr std::size_t kBytesShown = 4;
   const std::string& hash = description.shape_hash();
+  if (description.has_half_space()) {
+    const v1::HalfSpace& half_space = description.half_space();
+    return "all x with " + VectorText(half_space.normal()) + " · x <= " +
+           Number(half_space.offset_m()) + " m";
+  }
   return (hash.empty() ? "ball" : "shape " + HexText(hash.substr(0, kBytesShown)) + " in a ball") +
          " of " + Number(description.radius_m()) + " m" +
          (description.margin_m() > 0 ? " + margin " + Number(description.margin_m()) + " m" : "");
@@ -64,7 +69,7 @@ using Cell = std::function<std::string(const BoundReport&)>;
 
 void Add(const std::string& label, const PairReport& report, const Cell& cell, Rows* rows) {
   const auto text = [&cell](const BoundReport& one) {
-    return one.agent.description.radius_m() > 0 ? cell(one) : std::string("-");
+    return IsDescribed(one.agent.description) ? cell(one) : std::string("-");
   };
   rows->push_back({label, text(report.a), text(report.b)});
 }
