@@ -316,6 +316,23 @@ TEST(Screening, LeavesNoTimeToItsAgentsWhenTheOwnerIsGone) {
   EXPECT_EQ(skies.daemon().status().now_ns(), 1'050'000'000);
 }
 
+// Goal:   time waits for a shape as long as a real agent refers to it.
+TEST(Screening, WaitsForNoShapeOfAHypotheticalAgent) {
+  Skies skies;
+  const std::string hash(32, 'x');
+  const auto awaited = [&] { return Extension(skies.daemon().status(), "waiting_for"); };
+  skies.Add({.simulator = "alpha", .slot = 0});
+  skies.Add({.simulator = "beta", .slot = 1, .x = 9, .hypothetical = true, .shape_hash = hash});
+  skies.RunTo(0.5);
+  EXPECT_EQ(awaited(), "");
+  skies.Add({.simulator = "beta", .slot = 2, .x = 99, .shape_hash = hash});
+  skies.RunTo(1);
+  EXPECT_NE(awaited().find("shape 78787878"), std::string::npos);
+  skies.Remove("beta", 2);
+  skies.RunTo(1.5);
+  EXPECT_EQ(awaited(), "");
+}
+
 // Goal:   the recorded batches determine what is told of hypothetical agents.
 TEST(Screening, IsReplayedBitForBit) {
   Batches batches;
