@@ -168,12 +168,12 @@ void CheckHalfSpace(const AgentDescription& description) {
 }
 
 void CheckMotion(const AgentDescription& description) {
-  RequireNumber("acceleration_max_m_s2", description.acceleration_max_m_s2, kAccelerationMax,
-                "; 0 promises that its velocity never changes");
   if (description.radius_m || !description.shape) {
     RequireNumber("radius_m", description.radius_m, kRadiusMax,
                   "; beside a shape it may be left out");
   }
+  RequireNumber("acceleration_max_m_s2", description.acceleration_max_m_s2, kAccelerationMax,
+                "; 0 promises that its velocity never changes");
 }
 
 }  // namespace

@@ -66,8 +66,9 @@ class Detector {
   Detector& operator=(Detector&&) noexcept;
   ~Detector();
 
-  /// False if `agents_max` is reached, HasRoomForHalfSpace() is false for one, or the id is present. An agent that comes after Remove() has
-  /// another id (a new generation): the former one is evaluated a last time beside it.
+  /// False if `agents_max` is reached, HasRoomForHalfSpace() is false for one, or the id is
+  /// present. An agent that comes after Remove() has another id (a new generation): the former one
+  /// is evaluated a last time beside it.
   /// `effective_from`: the instant from which the clearances of other agents take account of this
   /// one. With a simulated clock it is the greatest time granted so far to any agent that this one
   /// can meet, otherwise the state's stamp.

@@ -36,8 +36,8 @@ std::pair<Vector3d, Vector3d> Across(const Vector3d& normal) {
 std::optional<std::string> RefusalOfHalfSpace(const Vector3d& normal, double offset) {
   const double length = normal.norm();
   if (!(std::abs(length - 1) <= kNormalLengthTolerance)) {
-    return "half_space.normal has the length " + NumberText(length) +
-           "; allowed is 1, to within " + NumberText(kNormalLengthTolerance);
+    return "half_space.normal has the length " + NumberText(length) + "; allowed is 1, to within " +
+           NumberText(kNormalLengthTolerance);
   }
   if (!(std::abs(offset) <= kHalfSpaceOffsetMax)) {
     return "half_space.offset_m is " + NumberText(offset) + "; allowed are " +
@@ -89,16 +89,16 @@ FixedHalfSpace::Block FixedHalfSpace::BlockOf(double half_width) const {
   // The face is at least as wide as L, and a sine is at least half its angle.
   const double spread = numeric::AddUp(heights.upper, -heights.lower);
   const double tilt = numeric::DivideUp(numeric::MultiplyUp(2, spread), half_width);
-  return {half_width, Shape::Compound(nullptr, {ConvexSolid::BuildOfAnySize(block)}), heights, tilt};
+  return {half_width, Shape::Compound(nullptr, {ConvexSolid::BuildOfAnySize(block)}), heights,
+          tilt};
 }
 
 std::optional<FixedHalfSpace::StandIn> FixedHalfSpace::Around(const Vector3d& centre,
                                                               double reach) const {
   const Interval height = HeightAbove(offset_, centre);
   const double wanted = kWidthOverReach * (reach + std::max(0.0, -height.lower));
-  const auto block = std::find_if(blocks_.begin(), blocks_.end(), [wanted](const Block& one) {
-    return one.half_width >= wanted;
-  });
+  const auto block = std::find_if(blocks_.begin(), blocks_.end(),
+                                  [wanted](const Block& one) { return one.half_width >= wanted; });
   if (block == blocks_.end()) return std::nullopt;
   const Vector3d position = centre - height.middle() * normal_.normalized();
   const Interval off = HeightAbove(offset_, position) + block->heights;

@@ -48,7 +48,7 @@ class FixedHalfSpace {
     std::shared_ptr<const Shape> shape;
     Eigen::Vector3d position;  ///< Of the block's origin, in the middle of its upper face.
     double error;              ///< How far its upper face is from the plane at most [m].
-    double tilt;               ///< How far its upper face is turned against the plane at most [rad].
+    double tilt;  ///< How far its upper face is turned against the plane at most [rad].
   };
 
   /// The block for a body within `reach` [m] of `centre`. The body's signed distance to the block,

@@ -35,7 +35,7 @@ Refusal NotDescribed(const detection::AgentId& agent, std::string detail);
 /// Refuses a complete agent for which there is no room.
 Refusal NoRoom(const detection::AgentId& agent, std::string detail);
 
-/// Refuses a description that makes a half-space of an agent that was none, or another one, or none.
+/// Refuses a description by which a half-space would become another one, or none, or an agent one.
 Refusal HalfSpaceChanged(const detection::AgentId& agent);
 
 /// Refuses a removal that does not come from the owner.

@@ -57,15 +57,18 @@ TEST(Recording, WhatCannotBeReplayedIsOneClearLine) {
 // Goal:   a recording of an earlier format is refused by all who read one, with both formats.
 TEST(Recording, OneOfAnEarlierFormatIsRefusedWithASentence) {
   const Folder folder;
-  const std::string old = folder.Write("old.rec", std::string("\x08\x0a\x06\x08\x02\x12\x02" "0.", 9));
+  const std::string old = folder.Write("old.rec", std::string("\x08\x0a\x06\x08\x02\x12\x02"
+                                                              "0.",
+                                                              9));
   const std::vector<std::string> readers[] = {{Program("collisiond"), "--replay", old},
                                               {Program("collisionctl"), "suggest-bounds", old}};
   for (const std::vector<std::string>& reader : readers) {
     const Outcome outcome = RunToEnd(reader);
     EXPECT_NE(outcome.status, 0) << reader[0];
     EXPECT_TRUE(Contains(outcome.err, old + ": ")) << outcome.err;
-    EXPECT_TRUE(Contains(outcome.err, "format 2, written by version \"0.\"; this program reads "
-                                      "format 3 only"))
+    EXPECT_TRUE(Contains(outcome.err,
+                         "format 2, written by version \"0.\"; this program reads "
+                         "format 3 only"))
         << outcome.err;
     EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
   }

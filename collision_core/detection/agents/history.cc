@@ -170,8 +170,8 @@ narrow_phase::BodySegment History::Over(Instant from, Instant to) const {
       numeric::Interval(std::max(last.limits.radius, next.limits.radius)) - ball.radius;
   if (sample.shape == next_sample.shape) segment.shape = sample.shape;
   segment.half_space = sample.half_space;
-  segment.awaited = !segment.shape && !segment.half_space &&
-                    (sample.has_shape() || next_sample.has_shape());
+  segment.awaited =
+      !segment.shape && !segment.half_space && (sample.has_shape() || next_sample.has_shape());
   last.limits = next.limits = Widest(last.limits, next.limits);
 
   const bool broken = has_next && samples_[k + 1].link == Link::kBroken;

@@ -137,8 +137,8 @@ class PairTable {
   IndexedVector<AgentIndex, std::vector<PairSlot>> of_agent_;
   IndexedVector<AgentIndex, std::vector<PairSlot>> idle_of_agent_;
   IndexedVector<AgentIndex, std::uint32_t> most_of_;  // how many pairs the agent may have
-  IndexedVector<AgentIndex, std::uint8_t> full_;  // as many pairs as the agent may have
-  SharedLimit<OwnerId> owners_;                   // present as often as an owner has agents
+  IndexedVector<AgentIndex, std::uint8_t> full_;      // as many pairs as the agent may have
+  SharedLimit<OwnerId> owners_;                       // present as often as an owner has agents
   IndexedVector<AgentIndex, Owner*> owner_of_;
 };
 

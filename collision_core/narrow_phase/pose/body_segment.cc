@@ -47,11 +47,12 @@ void Replace(const BodySegment& other, double duration, BodySegment* body) {
   body->shape = block->shape;
   body->ball.radius = block->shape->facts().radius;
   const numeric::IntervalVector still(Eigen::Vector3d(0, 0, 0));
-  body->ball.bounds.push_back({numeric::IntervalVector(block->position),
-                               still,
-                               still,
-                               numeric::Interval(body->ball.radius),
-                               {numeric::Interval(block->error), numeric::Interval(0), numeric::Interval(0)}});
+  body->ball.bounds.push_back(
+      {numeric::IntervalVector(block->position),
+       still,
+       still,
+       numeric::Interval(body->ball.radius),
+       {numeric::Interval(block->error), numeric::Interval(0), numeric::Interval(0)}});
   motion::MovingRotation turn;
   turn.angle_error = {numeric::Interval(block->tilt), numeric::Interval(0), numeric::Interval(0)};
   body->turns = {turn};

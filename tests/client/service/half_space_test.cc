@@ -51,8 +51,8 @@ class HalfSpaceTest : public testing::Test {
   }
 
   InProcessService service_{ConfigOfTwo(), 1};
-  World ground_ = service_.Connect(1, {.simulator = "ground"});
-  World drones_ = service_.Connect(2, {.simulator = "drones"});
+  World ground_ = service_.Connect(1, {.simulator = "ground", .levels = {"low"}});
+  World drones_ = service_.Connect(2, {.simulator = "drones", .levels = {"low"}});
   std::vector<Event> told_ground_, told_drones_;
 };
 

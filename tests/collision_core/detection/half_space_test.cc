@@ -22,9 +22,9 @@ AgentDeclaration HalfSpace(const Vector3d& normal, double offset) {
 
 std::shared_ptr<const shape::Shape> Box(double half) {
   return shape::Shape::Compound(
-      nullptr, {shape::ConvexSolid::Build({.core = geometry::ConvexCore::kBox,
-                                           .half = {half, half, half},
-                                           .points = {}})});
+      nullptr,
+      {shape::ConvexSolid::Build(
+          {.core = geometry::ConvexCore::kBox, .half = {half, half, half}, .points = {}})});
 }
 
 /// Lines and half-spaces.

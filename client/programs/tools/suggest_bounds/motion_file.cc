@@ -66,8 +66,7 @@ void RequireFormat(const v1::RecordingHeader& header, const std::string& path) {
   if (header.format() == wire::kRecordingFormat) return;
   throw BadInput(path + ": format " + std::to_string(header.format()) + ", written by version \"" +
                  header.version() + "\"; this program reads format " +
-                 std::to_string(wire::kRecordingFormat) +
-                 " only: use the version that wrote it");
+                 std::to_string(wire::kRecordingFormat) + " only: use the version that wrote it");
 }
 
 MotionFile FromRecording(std::ifstream* file, const std::string& path) {

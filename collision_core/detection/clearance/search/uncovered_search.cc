@@ -87,7 +87,8 @@ void UncoveredSearch::FindCandidates(const ClearanceQuery& query, Instant from) 
 
 // No ball contains a half-space. It is queried once, when it comes.
 void UncoveredSearch::AddAll() {
-  for (std::size_t k = 0; k < context_.agents.index_end(); ++k) candidates_.push_back(AgentIndex(k));
+  for (std::size_t k = 0; k < context_.agents.index_end(); ++k)
+    candidates_.push_back(AgentIndex(k));
 }
 
 // Adds the agents that may have met this motion between `from` and the newest states.

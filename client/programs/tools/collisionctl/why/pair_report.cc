@@ -157,8 +157,9 @@ Meeting MeetingOf(const v1::HalfSpace& told, const BoundReport& agent, const Pai
   const broad_phase::HalfSpace half_space{ToCore(told.normal()), told.offset_m()};
   const intersection::BroadQuery query{intersection::BoundKind::kHorn, now, Instant::Never()};
   const Eigen::Vector3d centre = CentreAfter(agent.age, *agent.agent.state);
-  return {half_space.normal.dot(centre) - half_space.offset,
-          EarliestIntersectionOf(query, half_space, {ToCore(agent, report.skew)}, margin).instant()};
+  return {
+      half_space.normal.dot(centre) - half_space.offset,
+      EarliestIntersectionOf(query, half_space, {ToCore(agent, report.skew)}, margin).instant()};
 }
 
 /// Distance, earliest time, and how far each can be by then.
@@ -171,7 +172,7 @@ void Meet(PairReport* report) {
   const double margin = of_a.margin_m() + of_b.margin_m();
   const Instant now = Instant::FromNanoseconds(report->now_ns);
   const auto [distance, earliest] =
-      of_a.has_half_space() ? MeetingOf(of_a.half_space(), report->b, *report, margin, now)
+      of_a.has_half_space()   ? MeetingOf(of_a.half_space(), report->b, *report, margin, now)
       : of_b.has_half_space() ? MeetingOf(of_b.half_space(), report->a, *report, margin, now)
                               : MeetingOfBalls(*report, margin, now);
   report->distance = distance;

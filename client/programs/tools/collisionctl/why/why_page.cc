@@ -31,8 +31,8 @@ std::string BodyText(const v1::AgentDescription& description) {
   const std::string& hash = description.shape_hash();
   if (description.has_half_space()) {
     const v1::HalfSpace& half_space = description.half_space();
-    return "all x with " + VectorText(half_space.normal()) + " · x <= " +
-           Number(half_space.offset_m()) + " m";
+    return "all x with " + VectorText(half_space.normal()) +
+           " · x <= " + Number(half_space.offset_m()) + " m";
   }
   return (hash.empty() ? "ball" : "shape " + HexText(hash.substr(0, kBytesShown)) + " in a ball") +
          " of " + Number(description.radius_m()) + " m" +
