@@ -32,8 +32,8 @@ class AgentTable {
   explicit AgentTable(const AgentLimits& limits) : limits_(limits) {}
 
   /// The index of a new agent without any state yet. None() if `agents_max` is reached, for a
-  /// half-space kHalfSpacesMax, those that leave included, or if the id is present. Requires that an
-  /// awaited shape is null. Unchecked: Store() follows before anything else is asked about the
+  /// half-space kHalfSpacesMax, those that leave included, or if the id is present. Requires that
+  /// an awaited shape is null. Unchecked: Store() follows before anything else is asked about the
   /// agent.
   AgentIndex Admit(const AgentId& id, const AgentDeclaration& declaration, Instant stamp);
 

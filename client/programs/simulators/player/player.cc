@@ -81,6 +81,16 @@ class Part {
   std::size_t logged_ = 0;
 };
 
+std::vector<Agent> AddHalfSpaces(const PlayerOptions& options, const Pace& pace, World* world) {
+  std::vector<Agent> added;
+  for (const HalfSpace& half_space : options.half_spaces) {
+    const std::string name = "half-space-" + std::to_string(added.size() + 1);
+    added.push_back(world->AddAgent({.name = name, .half_space = half_space},
+                                    {.stamp_ns = pace.start_ns()}));
+  }
+  return added;
+}
+
 }  // namespace
 
 std::optional<KnownAcceleration> KnownOf(const Trajectory& trajectory,
@@ -134,6 +144,7 @@ std::vector<std::int64_t> StateInstants(const Trajectory& trajectory, double rat
 
 void Play(const std::vector<PlayedAgent>& agents, const PlayerOptions& options, Pace* pace,
           MotionLog* log) {
+  const std::vector<Agent> half_spaces = AddHalfSpaces(options, *pace, &pace->world());
   std::vector<Part> parts;
   std::map<std::int64_t, std::vector<std::size_t>> due;  // agents with a state at an instant
   for (const PlayedAgent& agent : agents) {

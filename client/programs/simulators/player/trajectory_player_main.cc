@@ -30,6 +30,7 @@ struct Options {
   std::string file;
   std::vector<std::string> agents;  // ID or ID=NAME; none: all
   bool quiet = false;
+  std::vector<double> planes;  // of half-spaces: normal and offset, one after another
 };
 
 // The selected agents as name -> rows. Throws CsvError if one is not in the file.
@@ -198,8 +199,33 @@ const CLI::Option* AddPlayerOptions(CLI::App* app, Options* options) {
   app->add_option("--seconds", options->simulator.seconds,
                   "Length of the run; default: to the last row")
       ->check(Finite(kRunSecondsMax, false));
+  app->add_option("--half-space", options->planes,
+                  "A floor or a wall: NX,NY,NZ,OFFSET, all x with n·x <= OFFSET [m], n of length 1; "
+                  "may be given several times")
+      ->delimiter(',');
   app->add_flag("--quiet", options->quiet, "Print nothing but what goes wrong");
   return radius;
+}
+
+// Throws BadInput for what is no half-space.
+void TakeHalfSpaces(Options* options) {
+  const std::vector<double>& planes = options->planes;
+  if (planes.size() % 4 != 0) {
+    throw BadInput("--half-space: " + std::to_string(planes.size()) +
+                   " numbers, allowed: 4 of each, NX,NY,NZ,OFFSET");
+  }
+  if (!planes.empty() && !options->simulator.motion_log.empty()) {
+    throw BadInput("--half-space: beside --motion-log, allowed: one of the two");
+  }
+  for (std::size_t i = 0; i < planes.size(); i += 4) {
+    const HalfSpace half_space{{planes[i], planes[i + 1], planes[i + 2]}, planes[i + 3]};
+    try {
+      Validate(AgentDescription{.name = "half-space", .half_space = half_space});
+    } catch (const std::invalid_argument& error) {
+      throw BadInput("--half-space: " + std::string(error.what()));
+    }
+    options->player.half_spaces.push_back(half_space);
+  }
 }
 
 }  // namespace
@@ -227,6 +253,7 @@ int main(int argc, char** argv) {
   }
   CatchStopSignals();
   return RunProgram("trajectory-player", [&options]() -> int {
+    TakeHalfSpaces(&options);
     try {
       return Run(options);
     } catch (const CsvError& error) {
