@@ -200,8 +200,8 @@ const CLI::Option* AddPlayerOptions(CLI::App* app, Options* options) {
                   "Length of the run; default: to the last row")
       ->check(Finite(kRunSecondsMax, false));
   app->add_option("--half-space", options->planes,
-                  "A floor or a wall: NX,NY,NZ,OFFSET, all x with n·x <= OFFSET [m], n of length 1; "
-                  "may be given several times")
+                  "A floor or a wall: NX,NY,NZ,OFFSET, all x with n·x <= OFFSET [m], n of length "
+                  "1; may be given several times")
       ->delimiter(',');
   app->add_flag("--quiet", options->quiet, "Print nothing but what goes wrong");
   return radius;
