@@ -172,6 +172,26 @@ TEST(HalfSpaceAgent, ClearancesEndBeforeTheContactAndNotLongBefore) {
   EXPECT_GE(earliest.earliest, At(1 + reach - 1e-6));
 }
 
+TEST(HalfSpaceAgent, ItsClearanceIsLoweredByAnAgentThatJumpsNear) {
+  Room room;
+  room.AddHalfSpace(1, {0, 1, 0}, 0);
+  room.Add(2, {1000, 5000, 0}, {0, 0, 0});
+  room.Run(0.5);
+  EXPECT_GE(room.detector.ClearanceOf(Id(1))->clear_until, At(99));
+  motion::MotionState jump = State(0.5, {1000, 51, 0}, {0, -1, 0});
+  jump.discontinuity = true;
+  room.detector.Update(Id(2), jump, At(0.5));
+  room.agents[0] = {2, {1000, 51, 0}, {0, -1, 0}, 0.5};
+  room.Run(0.75);
+  // ½ t² + t = 50.
+  const double reach = -1 + std::sqrt(1 + 2 * 50.0);
+  for (const std::uint32_t slot : {1U, 2U}) {
+    const Instant until = room.detector.ClearanceOf(Id(slot))->clear_until;
+    EXPECT_LE(until, At(0.5 + reach)) << slot;
+    EXPECT_GE(until, At(0.5 + reach - 1e-3)) << slot;
+  }
+}
+
 TEST(HalfSpaceAgent, MoreAgentsThanAPairLimitStandOnOneFloor) {
   DetectorOptions options;
   options.pairs_per_agent_max = 8;
@@ -226,6 +246,7 @@ TEST(HalfSpaceAgent, OneThatComesLateMeetsThoseWhoseStatesLieAhead) {
   room.detector.Update(Id(2), State(3, {0, 0, -2}, {0, 0, -2}), At(3));
   room.detector.SetHeardUntil(OwnerOf(Id(2)), At(3));
   room.agents.clear();
+  room.Step();
   room.AddHalfSpace(1, {0, 0, 1}, 0);
   room.now = 1;
   room.Step();
