@@ -175,9 +175,9 @@ TEST(HalfSpaceAgent, ClearancesEndBeforeTheContactAndNotLongBefore) {
 TEST(HalfSpaceAgent, ItsClearanceIsLoweredByAnAgentThatJumpsNear) {
   Room room;
   room.AddHalfSpace(1, {0, 1, 0}, 0);
-  room.Add(2, {1000, 5000, 0}, {0, 0, 0});
+  room.Add(2, {1000, 201, 0}, {0, 0, 0});
   room.Run(0.5);
-  EXPECT_GE(room.detector.ClearanceOf(Id(1))->clear_until, At(99));
+  EXPECT_GE(room.detector.ClearanceOf(Id(1))->clear_until, At(19));
   motion::MotionState jump = State(0.5, {1000, 51, 0}, {0, -1, 0});
   jump.discontinuity = true;
   room.detector.Update(Id(2), jump, At(0.5));
@@ -242,24 +242,29 @@ TEST(HalfSpaceAgent, OneThatComesLateMeetsThoseWhoseStatesLieAhead) {
   Room room;
   room.Add(2, {0, 0, 4}, {0, 0, -2});
   room.Run(0.5);
-  // Its next state lies ahead, beyond a contact that nobody could know of.
-  room.detector.Update(Id(2), State(3, {0, 0, -2}, {0, 0, -2}), At(3));
-  room.detector.SetHeardUntil(OwnerOf(Id(2)), At(3));
+  // It turns about with 0.98 m/s² and is away again at its next state, which lies ahead.
+  const double turn = 4.5, next = 0.5 + turn;
+  room.detector.Update(
+      Id(2),
+      State(next, {0, 0, 3 - 2 * turn + 0.49 * turn * turn}, {0, 0, -2 + 0.98 * turn}), At(next));
+  room.detector.SetHeardUntil(OwnerOf(Id(2)), At(next));
   room.agents.clear();
   room.Step();
-  room.AddHalfSpace(1, {0, 0, 1}, 0);
-  room.now = 1;
+  room.AddHalfSpace(1, {0, 0, 1}, 1.5);
+  room.now = 0.625;
   room.Step();
-  const Instant clear = room.detector.ClearanceOf(Id(1))->clear_until;
-  EXPECT_LE(clear, At(1.5));
-  while (room.now < 3) {
+  // 3 − 2 t + 0.49 t² = 2.5
+  const double begin = 0.5 + (2 - std::sqrt(4 - 4 * 0.49 * 0.5)) / 0.98;
+  EXPECT_LE(room.detector.ClearanceOf(Id(1))->clear_until, At(begin));
+  while (room.now < next) {
     room.now += 1.0 / 16;
     room.detector.SetHeardUntil(OwnerOf(Id(1)), At(room.now));
     room.Step();
   }
   const auto confirmed = room.With(EventStatus::kConfirmed);
   ASSERT_FALSE(confirmed.empty());
-  EXPECT_LE(confirmed.back().begin.earliest, At(1.5));
+  EXPECT_LE(confirmed.back().begin.earliest, At(begin));
+  EXPECT_GE(confirmed.back().begin.latest, At(begin));
 }
 
 TEST(HalfSpaceAgent, TheFilterSaysWhomItMeets) {
