@@ -245,8 +245,8 @@ TEST(HalfSpaceAgent, OneThatComesLateMeetsThoseWhoseStatesLieAhead) {
   // It turns about with 0.98 m/s² and is away again at its next state, which lies ahead.
   const double turn = 4.5, next = 0.5 + turn;
   room.detector.Update(
-      Id(2),
-      State(next, {0, 0, 3 - 2 * turn + 0.49 * turn * turn}, {0, 0, -2 + 0.98 * turn}), At(next));
+      Id(2), State(next, {0, 0, 3 - 2 * turn + 0.49 * turn * turn}, {0, 0, -2 + 0.98 * turn}),
+      At(next));
   room.detector.SetHeardUntil(OwnerOf(Id(2)), At(next));
   room.agents.clear();
   room.Step();

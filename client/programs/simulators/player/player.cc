@@ -85,8 +85,8 @@ std::vector<Agent> AddHalfSpaces(const PlayerOptions& options, const Pace& pace,
   std::vector<Agent> added;
   for (const HalfSpace& half_space : options.half_spaces) {
     const std::string name = "half-space-" + std::to_string(added.size() + 1);
-    added.push_back(world->AddAgent({.name = name, .half_space = half_space},
-                                    {.stamp_ns = pace.start_ns()}));
+    added.push_back(
+        world->AddAgent({.name = name, .half_space = half_space}, {.stamp_ns = pace.start_ns()}));
   }
   return added;
 }

@@ -161,8 +161,8 @@ std::string EventText(const PairReport& report, const WorldView& view) {
 
 /// Between which the distance is told.
 std::string PlacesText(const PairReport& report) {
-  const bool to_plane = report.a.agent.description.has_half_space() ||
-                        report.b.agent.description.has_half_space();
+  const bool to_plane =
+      report.a.agent.description.has_half_space() || report.b.agent.description.has_half_space();
   return to_plane ? "the reference point and the plane" : "the reference points";
 }
 
@@ -193,8 +193,8 @@ std::string WhyPage(const PairReport& report, const WorldView& view) {
   std::string page = Table(AgentRows(report)) + "\n" + Line("now", SinceText(report.now_ns));
   if (report.earliest_ns) {
     page +=
-        Line("distance", NumberText(report.distance, "%.6g") + " m between " + PlacesText(report) + ", " +
-                             MetresText(report.gap, Rounding::kDown) +
+        Line("distance", NumberText(report.distance, "%.6g") + " m between " + PlacesText(report) +
+                             ", " + MetresText(report.gap, Rounding::kDown) +
                              " m between all that they can reach");
     page += Line("earliest", *report.earliest_ns == kNever
                                  ? "never, from these bounds"
