@@ -79,10 +79,10 @@ TEST_F(WhyTest, AHalfSpaceIsMetWhereItsPlaneIs) {
   Of(1)->set_radius_m(0);
   Of(1)->mutable_half_space()->mutable_normal()->set_x(-1);
   Of(1)->mutable_half_space()->set_offset_m(-20);
-  PairReport report = Report();
+  const double radius = Of(0)->radius_m();
+  const PairReport report = Report();
   ASSERT_TRUE(report.earliest_ns);
   EXPECT_EQ(report.distance, 20);
-  const double radius = Of(0)->radius_m();
   EXPECT_EQ(report.gap, 20 - radius);
   EXPECT_NEAR(static_cast<double>(*report.earliest_ns - kNow), (20 - radius) * 1e9, 100);
   const std::string page = WhyPage(report, view_);
