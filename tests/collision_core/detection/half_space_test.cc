@@ -198,7 +198,8 @@ TEST(HalfSpaceAgent, MoreAgentsThanAPairLimitStandOnOneFloor) {
   Room room(options);
   room.AddHalfSpace(1, {0, 0, 1}, 0);
   for (std::uint32_t k = 0; k < 50; ++k) {
-    room.Add(10 + k, {5.0 * (k % 10), 5.0 * (k / 10), 0.5}, {0, 0, 0});
+    const std::uint32_t row = k / 10, column = k % 10;
+    room.Add(10 + k, {5.0 * column, 5.0 * row, 0.5}, {0, 0, 0});
   }
   room.Run(0.5);
   std::set<std::uint32_t> touching;
