@@ -1,6 +1,8 @@
 #include "idl/dds/endpoints.h"
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 namespace collision::dds {
 namespace {
@@ -52,15 +54,13 @@ class Builder {
 
   /// `inbox`: null, the readers keep their samples themselves.
   void Read(Source source, const std::string& partition, const dds_listener_t* listener,
-            Inbox* inbox, bool earliest = true, bool screening = true) {
+            Inbox* inbox, const std::vector<TopicId>& left_out = {}) {
     Qos qos = MakeQos();
     dds_qset_partition1(qos.get(), partition.c_str());
     const dds_entity_t subscriber =
         Check(dds_create_subscriber(participant_, qos.get(), nullptr), "DDS subscriber");
     for (const TopicRow& row : Topics()) {
-      if (row.source != source) continue;
-      if (row.id == TopicId::kEarliestIntersection && !earliest) continue;
-      if (row.id == TopicId::kScreening && !screening) continue;
+      if (row.source != source || std::ranges::count(left_out, row.id) > 0) continue;
       // Of a service its status tells.
       const bool listens = source != Source::kService || row.id == TopicId::kServiceStatus;
       Read(row, subscriber, ReaderQos(row), listens ? listener : nullptr, inbox);
@@ -136,8 +136,12 @@ Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
                as_simulator, as_service, of_operators, as_operator, of_watchers, as_watcher] =
       partitions;
   if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener, inbox);
-  if (of_service)
-    builder.Read(Source::kService, *of_service, listener, nullptr, earliest, screening);
+  if (of_service) {
+    std::vector<TopicId> left_out;
+    if (!earliest) left_out.push_back(TopicId::kEarliestIntersection);
+    if (!screening) left_out.push_back(TopicId::kScreening);
+    builder.Read(Source::kService, *of_service, listener, nullptr, left_out);
+  }
   if (of_other_services) builder.ReadOtherServices(*of_other_services, events_too, listener);
   if (as_service) builder.Write(Source::kService, *as_service);
   if (as_simulator) builder.Write(Source::kSimulators, *as_simulator);
