@@ -13,27 +13,12 @@ constexpr std::int64_t kMillisecond = 1'000'000;
 
 class BreachTest : public testing::Test {
  protected:
-  static v1::Config ConfigOfTwo() {
-    v1::Config config = server::Simulated();
-    config.mutable_clock()->set_simulators_awaited(2);
-    config.mutable_clock()->set_grant_ahead_max_s(0.1);  // each state in a round of its own
-    return config;
-  }
-
   void SetUp() override {
     crane_.OnNotice([this](const Notice& notice) { told_.push_back(notice); });
     still_.OnNotice([this](const Notice& notice) { told_to_other_.push_back(notice); });
   }
 
-  void Advance(std::int64_t clock_ns) {
-    for (int tries = 0; tries < 1000; ++tries) {
-      const auto one = still_.AdvanceTo(clock_ns, std::chrono::nanoseconds(0));
-      const auto other = crane_.AdvanceTo(clock_ns, std::chrono::nanoseconds(0));
-      if (one == client::Advance::kReached && other == client::Advance::kReached) return;
-      service_.Step(0.001);
-    }
-    ADD_FAILURE() << "time stands";
-  }
+  void Advance(std::int64_t clock_ns) { AdvanceBoth(clock_ns, &service_, &still_, &crane_); }
 
   /// Runs for half a second under 3 m/s² and tells this acceleration.
   void Push(double told) {
@@ -64,7 +49,7 @@ class BreachTest : public testing::Test {
     return breaches;
   }
 
-  InProcessService service_{ConfigOfTwo(), 1};
+  InProcessService service_{RoundsOfTwo(), 1};
   World still_ = service_.Connect(1, {.simulator = "still"});
   World crane_ = service_.Connect(2, {.simulator = "crane"});
   std::vector<Notice> told_, told_to_other_;

@@ -13,10 +13,8 @@ constexpr std::int64_t kMillisecond = 1'000'000;
 
 class HalfSpaceTest : public testing::Test {
  protected:
-  static v1::Config ConfigOfTwo() {
-    v1::Config config = server::Simulated();
-    config.mutable_clock()->set_simulators_awaited(2);
-    config.mutable_clock()->set_grant_ahead_max_s(0.1);  // each state in a round of its own
+  static v1::Config ConfigWithALevel() {
+    v1::Config config = RoundsOfTwo();
     v1::Level* level = config.add_levels();
     level->set_name("low");
     level->set_margin_m(0.5);
@@ -28,15 +26,7 @@ class HalfSpaceTest : public testing::Test {
     drones_.OnEvent([this](const Event& event) { told_drones_.push_back(event); });
   }
 
-  void Advance(std::int64_t clock_ns) {
-    for (int tries = 0; tries < 1000; ++tries) {
-      const auto one = ground_.AdvanceTo(clock_ns, std::chrono::nanoseconds(0));
-      const auto other = drones_.AdvanceTo(clock_ns, std::chrono::nanoseconds(0));
-      if (one == client::Advance::kReached && other == client::Advance::kReached) return;
-      service_.Step(0.001);
-    }
-    ADD_FAILURE() << "time stands";
-  }
+  void Advance(std::int64_t clock_ns) { AdvanceBoth(clock_ns, &service_, &ground_, &drones_); }
 
   static void ExpectOneContact(const std::vector<Event>& events, const std::string& level,
                                double begin_s) {
@@ -50,7 +40,7 @@ class HalfSpaceTest : public testing::Test {
     EXPECT_LE(static_cast<double>(confirmed->begin.latest_ns - confirmed->begin.earliest_ns), 5e7);
   }
 
-  InProcessService service_{ConfigOfTwo(), 1};
+  InProcessService service_{ConfigWithALevel(), 1};
   World ground_ = service_.Connect(1, {.simulator = "ground", .levels = {"low"}});
   World drones_ = service_.Connect(2, {.simulator = "drones", .levels = {"low"}});
   std::vector<Event> told_ground_, told_drones_;

@@ -1,6 +1,9 @@
 // A daemon and simulators in one thread, with a network delay that the test chooses.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <chrono>
 #include <deque>
 #include <map>
 #include <memory>
@@ -105,6 +108,25 @@ inline World InProcessService::Connect(std::uint64_t sender, WorldOptions option
   if (options.run == 0) options.run = 1;
   auto line = std::make_unique<Line>(this, sender, SimulatorId(options.simulator));
   return World::Connect(options, std::move(line));
+}
+
+/// Lock-step of two simulators, each state in a round of its own.
+inline v1::Config RoundsOfTwo() {
+  v1::Config config = server::Simulated();
+  config.mutable_clock()->set_simulators_awaited(2);
+  config.mutable_clock()->set_grant_ahead_max_s(0.1);
+  return config;
+}
+
+/// Brings both to `clock_ns`.
+inline void AdvanceBoth(std::int64_t clock_ns, InProcessService* service, World* a, World* b) {
+  for (int tries = 0; tries < 1000; ++tries) {
+    const auto one = a->AdvanceTo(clock_ns, std::chrono::nanoseconds(0));
+    const auto other = b->AdvanceTo(clock_ns, std::chrono::nanoseconds(0));
+    if (one == Advance::kReached && other == Advance::kReached) return;
+    service->Step(0.001);
+  }
+  ADD_FAILURE() << "time stands";
 }
 
 }  // namespace collision::client

@@ -16,27 +16,12 @@ constexpr std::int64_t kMillisecond = 1'000'000;
 
 class ScreeningTest : public testing::Test {
  protected:
-  static v1::Config ConfigOfTwo() {
-    v1::Config config = server::Simulated();
-    config.mutable_clock()->set_simulators_awaited(2);
-    config.mutable_clock()->set_grant_ahead_max_s(0.1);  // each state in a round of its own
-    return config;
-  }
-
   ScreeningTest() {
     pilot_.OnEvent([this](const Event& event) { heard_.push_back(event); });
     other_.OnEvent([this](const Event& event) { heard_by_other_.push_back(event); });
   }
 
-  void AdvanceTo(std::int64_t clock_ns) {
-    for (int tries = 0; tries < 1000; ++tries) {
-      const auto one = pilot_.AdvanceTo(clock_ns, std::chrono::nanoseconds(0));
-      const auto two = other_.AdvanceTo(clock_ns, std::chrono::nanoseconds(0));
-      if (one == Advance::kReached && two == Advance::kReached) return;
-      service_.Step(0.001);
-    }
-    ADD_FAILURE() << "time stands";
-  }
+  void AdvanceTo(std::int64_t clock_ns) { AdvanceBoth(clock_ns, &service_, &pilot_, &other_); }
 
   static AgentDescription Ball(const std::string& name, bool hypothetical = false) {
     AgentDescription ball{.name = name, .radius_m = 1, .acceleration_max_m_s2 = 0.1};
@@ -50,7 +35,7 @@ class ScreeningTest : public testing::Test {
             .velocity_m_s = {v, 0, 0}};
   }
 
-  InProcessService service_{ConfigOfTwo(), 1};
+  InProcessService service_{RoundsOfTwo(), 1};
   World pilot_ = service_.Connect(1, {.simulator = "pilot"});
   World other_ = service_.Connect(2, {.simulator = "other"});
   std::vector<Event> heard_, heard_by_other_;
