@@ -23,8 +23,10 @@ Instant StateDemand::WantedAt(const detection::AgentClearance& clearance, Instan
   if (clearance.in_contact || clearance.saturated) return now;
   if (stamp < clearance.unsettled_until) return now;
   if (clear <= numeric::AddRoundedDown(now, kStepsBeforeContact * temporal_resolution_)) return now;
-  if (clear > numeric::AddRoundedDown(now, announce_within_)) return AnnouncedAt(clear);
   const Instant fresh_until = numeric::AddRoundedDown(stamp, kFreshShare * announce_within_);
+  if (clear > numeric::AddRoundedDown(now, announce_within_)) {
+    return std::max(AnnouncedAt(clear), fresh_until);
+  }
   return std::min(Instant::FromNanoseconds(std::midpoint(stamp.nanoseconds(), clear.nanoseconds())),
                   std::max(AnnouncedAt(clearance.unannounced_until), fresh_until));
 }

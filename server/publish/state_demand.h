@@ -12,7 +12,8 @@ namespace collision::server {
 /// A missing state breaks no promise: a bound holds until it is revoked. A state is wanted where it
 /// keeps the answers as sharp as a stream of states would:
 ///  - clear beyond `announce_within`: just before the detector evaluates the agent again, at
-///    clear_until − announce_within; an intersection that fresh states exclude is not announced;
+///    clear_until − announce_within, unless the newest state is still fresh then; an intersection
+///    that fresh states exclude is not announced;
 ///  - clear until C within it: half-way from the newest state to C. The bounds have grown with the
 ///    square of that state's age, so each state leaves a quarter of that growth. Earlier, just
 ///    before the detector announces further partners, unless the newest state is still fresh then:

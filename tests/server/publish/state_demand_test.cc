@@ -36,6 +36,12 @@ TEST(StateDemand, AFarAgentIsWantedJustBeforeTheDetectorAsksAgain) {
   EXPECT_TRUE(Demand().WantedAt({}, At(9), At(10)).is_never());
 }
 
+// The state that was sent just before the detector asks again is the one it needs.
+TEST(StateDemand, AFarAgentWithAFreshStateIsNotAskedForAnother) {
+  EXPECT_DOUBLE_EQ(Wanted(12.5, 10.25, 10.25), 10.5) << "stale before the detector asks";
+  EXPECT_DOUBLE_EQ(Wanted(12.5, 10.375, 10.375), 10.625) << "fresh when it asks";
+}
+
 TEST(StateDemand, ANearAgentIsWantedHalfWayToItsClearance) {
   EXPECT_DOUBLE_EQ(Wanted(12, 10, 10), 11);
   EXPECT_DOUBLE_EQ(Wanted(12, 11, 11), 11.5);
