@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collision_core/narrow_phase/approach/closest_approach.h"
+#include "collision_core/narrow_phase/contact/ball_contact.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::detection {
@@ -30,18 +31,43 @@ ClosestApproach Nearest(const ClosestApproach& before, const ClosestApproach& af
   return both;
 }
 
+// The distance of two balls at the end of a segment, from above. Only centres bound that of shapes.
+double UpperAtEnd(const narrow_phase::BodySegment& a, const narrow_phase::BodySegment& b,
+                  double duration) {
+  if (a.ball.bounds.empty() || b.ball.bounds.empty()) return numeric::kInfinity;
+  if (!a.is_ball() || !b.is_ball()) return numeric::kInfinity;
+  return EvaluateBallsAt(a.ball, b.ball, duration).separation.upper;
+}
+
+// How far two balls are apart at the end of a segment, from above.
+double UpperAtEnd(const narrow_phase::BodyPair& pair, Instant from, Instant to) {
+  const auto& [a, b] = pair;
+  if (a.ball.bounds.empty() || b.ball.bounds.empty()) return numeric::kInfinity;
+  if (!a.is_ball() || !b.is_ball()) return numeric::kInfinity;
+  return EvaluateBallsAt(a.ball, b.ball, numeric::SecondsBetween(from, to).upper).separation.upper;
+}
+
 }  // namespace
 
-std::uint64_t FollowClosest(const History& a, const History& b, Instant until,
-                            std::uint64_t allowed, PublishedEvent* published) {
+std::uint64_t FollowClosest(const History& a, const History& b, const FollowLimits& limits,
+                            PublishedEvent* published) {
   std::optional<ClosestApproach>& closest = published->closest;
   Instant& at = published->followed_until;
   const bool touching = published->event.status == EventStatus::kConfirmed;
-  WorkBudget work_on_shapes(allowed);
+  const auto end_of_segment = [&](Instant from) {
+    return std::min({limits.until, a.NextCutAfter(from), b.NextCutAfter(from)});
+  };
+  Instant last = at;
+  while (end_of_segment(last) < limits.until) last = end_of_segment(last);
+  const Instant end = limits.approaching ? last : limits.until;
+  if (at >= end) return 0;
+  // They have come this near in the end; what is farther before is not worth a search.
+  const double in_the_end = UpperAtEnd(BothOver(a, b, last, limits.until), last, limits.until);
+  WorkBudget work_on_shapes(limits.shape_units);
   std::uint64_t units = 0;
-  while (at < until) {
+  while (at < end) {
     const Instant from = at;
-    at = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
+    at = end_of_segment(from);
     const auto [of_a, of_b] = BothOver(a, b, from, at);
     const bool balls = of_a.is_ball() && of_b.is_ball();
     if (touching && !balls) continue;
@@ -50,9 +76,9 @@ std::uint64_t FollowClosest(const History& a, const History& b, Instant until,
       continue;
     }
     WorkBudget work_on_balls(touching ? kTouchingUnits : kPassingUnits);
+    const double beyond = std::min(in_the_end, closest ? closest->distance.upper : in_the_end);
     const narrow_phase::ClosestApproach found =
-        FindClosestApproach(of_a, of_b, numeric::SecondsBetween(from, at).upper,
-                            closest ? closest->distance.upper : numeric::kInfinity,
+        FindClosestApproach(of_a, of_b, numeric::SecondsBetween(from, at).upper, beyond,
                             balls ? &work_on_balls : &work_on_shapes);
     units += work_on_balls.spent();
     const ClosestApproach here{from,

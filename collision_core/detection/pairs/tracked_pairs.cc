@@ -251,6 +251,11 @@ WorkClaim TrackedPairs::ClaimOf(PairSlot slot) const {
   return claim;
 }
 
+bool TrackedPairs::MayMeetSoon(const ContactTracker& preview) const {
+  const Instant soon = numeric::AddRoundedDown(context_.clock.now, options_.announce_within);
+  return preview.free() && preview.finished().empty() && preview.free_until() <= soon;
+}
+
 void TrackedPairs::Evaluate(PairSlot slot, std::uint64_t allowed, Finality finality) {
   PairRecord& pair = table_[slot];
   const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];
@@ -261,9 +266,12 @@ void TrackedPairs::Evaluate(PairSlot slot, std::uint64_t allowed, Finality final
   WorkBudget work(allowed, held ? WhenExhausted::kLeaveUndecided : WhenExhausted::kQueryOnce);
   const ContactTracker preview = evaluator_.Evaluate({a, b, pair}, finality, &work);
   if (pair.published.announced) {
+    // Whatever closes the event wants it to the end.
+    const bool approaching = finality == Finality::kOngoing && MayMeetSoon(preview);
+    const FollowLimits limits{evaluator_.SettledUntil({a, b, pair}, finality), approaching,
+                              allowed / kClosestShare};
     context_.counters->encounter_units +=
-        FollowClosest(a.history, b.history, evaluator_.SettledUntil({a, b, pair}, finality),
-                      allowed / kClosestShare, &pair.published);
+        FollowClosest(a.history, b.history, limits, &pair.published);
   }
   pair.published.work += work.spent();
   pair.spent = work.exhausted() ? kAllWanted : work.spent();

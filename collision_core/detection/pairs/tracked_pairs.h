@@ -111,6 +111,8 @@ class TrackedPairs {
   void Evaluate(PairSlot slot, std::uint64_t allowed, Finality finality);
   PairInterest Report(PairSlot slot, const ContactTracker& preview, std::uint64_t allowed,
                       Finality finality);
+  /// They have not met, and may within announce_within.
+  bool MayMeetSoon(const ContactTracker& preview) const;
   EventFacts FactsOf(const PairRecord& pair, std::uint64_t allowed) const;
   void SetDue(PairSlot slot);
   Instant RestsUntil(PairSlot slot, const ContactTracker& preview) const;

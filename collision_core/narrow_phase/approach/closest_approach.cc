@@ -13,10 +13,11 @@ namespace collision::narrow_phase {
 namespace {
 
 // The search ends where the lower bound is less than what the instants that were examined allow by
-// no more than this share of the distance, or of the bodies' size where that is more.
+// no more than a share of the distance, of the bodies' size, or of what is not known at them.
 constexpr double kBallShare = 0x1p-20;
 constexpr double kShapeShare = 0x1p-6;
 constexpr double kSizeShare = 0x1p-24;
+constexpr double kUncertainShare = 0x1p-3;
 
 // Spans shorter than this share of the segment are not halved; the first and the last one in which
 // the two may be nearest are halved down to the other.
@@ -66,9 +67,9 @@ class ApproachSearch {
   }
 
   ClosestApproach Run() {
-    Examine(0);
     Examine(duration_);
     Add({0, duration_, -numeric::kInfinity});
+    if (!spans_.empty()) Examine(0);
     while (!spans_.empty() && !work_.exhausted() && !IsNarrow()) Halve(Take());
     while (!work_.exhausted() && NarrowTime()) continue;
     return Result();
@@ -102,8 +103,10 @@ class ApproachSearch {
   }
 
   // Halves the longer one of the first and the last span in which the two may be nearest. Returns
-  // false if both are short.
+  // false if both are short, or if the two are nearest at an end of the segment: the one beyond it
+  // tells more.
   bool NarrowTime() {
+    if (nearest_at_ <= 0 || nearest_at_ >= duration_) return false;
     std::erase_if(spans_, [this](const Span& span) { return span.lower > Limit(); });
     if (spans_.empty() || (shapes() && upper_ <= 0)) return false;
     const auto by_time = [](const Span& x, const Span& y) { return x.from < y.from; };
@@ -135,17 +138,18 @@ class ApproachSearch {
     const double at = span.from + 0.5 * (span.to - span.from);
     const SeparationAt balls = EvaluateBallsAt(a_.ball, b_.ball, at);
     if (!shapes()) {
-      if (a_.is_ball() && b_.is_ball()) Take(balls.separation);
+      if (a_.is_ball() && b_.is_ball()) Take(at, balls.separation);
       return -numeric::kInfinity;
     }
     if (balls.separation.lower > Limit()) return -numeric::kInfinity;
     ShapeMotion::PoseQuery query = motion_->QuerySeparation(at, Goal::kNearest);
     motion_->CheckContainment(&query);
-    Take(ProximityFrom(query, *motion_, a_.ball.radius + b_.ball.radius).separation);
+    Take(at, ProximityFrom(query, *motion_, a_.ball.radius + b_.ball.radius).separation);
     return motion_->DistanceOver(query, span.from, span.to);
   }
 
-  void Take(numeric::Interval separation) {
+  void Take(double at, numeric::Interval separation) {
+    if (separation.upper < upper_) nearest_at_ = at;
     upper_ = std::min(upper_, separation.upper);
     lower_ = std::min(lower_, separation.lower);
   }
@@ -155,7 +159,8 @@ class ApproachSearch {
     if (shapes() && upper_ <= 0) return true;
     const double size = a_.ball.radius + b_.ball.radius;
     const double share = shapes() ? kShapeShare : kBallShare;
-    const double enough = std::max(share * std::abs(upper_), kSizeShare * size);
+    const double enough = std::max(
+        {share * std::abs(upper_), kSizeShare * size, kUncertainShare * (upper_ - lower_)});
     return !(lower_ - spans_.front().lower > enough);
   }
 
@@ -183,6 +188,7 @@ class ApproachSearch {
   std::vector<Span> final_;            // too short to be halved
   double skipped_ = numeric::kInfinity;
   double upper_ = numeric::kInfinity;  // of the least distance
+  double nearest_at_ = 0;              // where that was found
   double lower_ = numeric::kInfinity;  // of the distance at any instant examined: none is better
 };
 

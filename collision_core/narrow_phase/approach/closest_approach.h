@@ -36,7 +36,8 @@ struct ClosestApproach {
 
 /// The closest approach of two bodies within [0, duration]. Times at which they are certainly
 /// farther apart than `beyond` [m] are not searched: if that is all of it, distance.lower > beyond,
-/// else `at` contains those at which they may be nearer than that and nearest. Of an awaited shape
+/// else `at` contains those at which they may be nearer than that and nearest, narrowed down unless
+/// they are nearest at an end of the segment. Of an awaited shape
 /// only the ball is known: nothing bounds the distance from above. It ends where the distance is
 /// known about as well as the motion allows, or the work is spent.
 ClosestApproach FindClosestApproach(const BodySegment& a, const BodySegment& b, double duration,

@@ -38,7 +38,7 @@ TEST(ClosestSoFar, IsThatOfAllSegmentsTogether) {
     const History b = Moving({-4, 3, 0}, {2, 0, 0}, acceleration_max);
     PublishedEvent published = From(0.5);
     for (double t = 0.75; t <= 4; t += 0.25) {
-      FollowClosest(a, b, At(t), kPlenty, &published);
+      FollowClosest(a, b, {.until = At(t), .shape_units = kPlenty}, &published);
       ASSERT_TRUE(published.closest);
       EXPECT_EQ(published.closest->from, At(0.5));
       EXPECT_EQ(published.closest->until, At(t));
@@ -56,9 +56,9 @@ TEST(ClosestSoFar, IsThatOfAllSegmentsTogether) {
 TEST(ClosestSoFar, WhatComesLaterAndIsFartherCostsNextToNothing) {
   const History a = Moving({0, 0, 0}, {0, 0, 0}, 0), b = Moving({-4, 3, 0}, {2, 0, 0}, 0);
   PublishedEvent published = From(0);
-  FollowClosest(a, b, At(2.5), kPlenty, &published);
+  FollowClosest(a, b, {.until = At(2.5), .shape_units = kPlenty}, &published);
   const ClosestApproach before = *published.closest;
-  EXPECT_LT(FollowClosest(a, b, At(3.5), kPlenty, &published), 40u);
+  EXPECT_LT(FollowClosest(a, b, {.until = At(3.5), .shape_units = kPlenty}, &published), 40u);
   EXPECT_EQ(published.closest->at, before.at);
   EXPECT_EQ(published.closest->until, At(3.5));
 }
@@ -67,7 +67,7 @@ TEST(ClosestSoFar, BeginsAnewAfterABrokenBound) {
   const History a = Moving({0, 0, 0}, {0, 0, 0}, 0, 2.25);
   const History b = Moving({-4, 3, 0}, {2, 0, 0}, 0);
   PublishedEvent published = From(0);
-  FollowClosest(a, b, At(4), kPlenty, &published);
+  FollowClosest(a, b, {.until = At(4), .shape_units = kPlenty}, &published);
   ASSERT_TRUE(published.closest);
   EXPECT_EQ(published.closest->from, At(2.25)) << "from 2 to 2.25 s nothing is known";
   EXPECT_GT(published.closest->distance.lower, 1.01);
