@@ -32,6 +32,14 @@ class RecentMap {
     return newer_.insert(std::move(node)).position->second;
   }
 
+  /// Calls `call(const Key&, Value&)` for each, of the earlier generation first and by key.
+  template <typename Call>
+  void ForEach(const Call& call) {
+    for (auto* generation : {&earlier_, &newer_}) {
+      for (auto& [key, value] : *generation) call(key, value);
+    }
+  }
+
   void Clear() {
     newer_.clear();
     earlier_.clear();

@@ -163,7 +163,11 @@ void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& even
 void Publisher::PublishScreening(const std::vector<detection::CollisionEvent>& events,
                                  World* world) {
   std::vector<v1::ScreeningEvent> messages = screening_.Take(events, *world, RateTime(*world));
-  if (claim_.speaks()) Publish(std::move(messages), world);
+  if (claim_.speaks()) {
+    Publish(std::move(messages), world);
+  } else {
+    screening_.Keep(std::move(messages));
+  }
 }
 
 void Publisher::Publish(std::vector<v1::ScreeningEvent> messages, World* world) {
@@ -191,7 +195,7 @@ void Publisher::PublishInherited(World* world) {
     PublishContact(std::move(contact), epoch);
   }
   for (Stream& stream : streams_) PublishInherited(*world, &stream);
-  Publish(screening_.Standing(*world), world);
+  Publish(screening_.TakeInherited(*world), world);
 }
 
 void Publisher::PublishInherited(const World& world, Stream* stream) {

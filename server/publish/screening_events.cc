@@ -3,6 +3,7 @@
 #include "server/codec/encode.h"
 #include "server/codec/hypothetical.h"
 #include "server/publish/because.h"
+#include "server/publish/inherited_events.h"
 
 namespace collision::server {
 namespace {
@@ -14,6 +15,18 @@ const detection::AgentId& HypotheticalOf(const detection::CollisionEvent& event)
 
 /// A contact is told once: not as a forecast that came true, too.
 bool IsCopy(const Telling& telling) { return !telling.contact && IsContact(telling.event.status); }
+
+bool IsOver(v1::EventStatus status) {
+  return status != v1::EVENT_POSSIBLE && status != v1::EVENT_CONFIRMED;
+}
+
+/// To the program that speaks for its simulator. False: the run that it is about is over.
+bool Address(const World& world, v1::ScreeningEvent* message) {
+  const auto owner = world.simulators().find(message->simulator_id());
+  if (owner == world.simulators().end() || owner->second.run() != message->run()) return false;
+  message->set_incarnation(owner->second.incarnation());
+  return true;
+}
 
 }  // namespace
 
@@ -32,8 +45,19 @@ std::vector<v1::ScreeningEvent> ScreeningEvents::Take(
   return messages;
 }
 
-std::vector<v1::ScreeningEvent> ScreeningEvents::Standing(const World& world) const {
+void ScreeningEvents::Keep(std::vector<v1::ScreeningEvent> untold) {
+  for (v1::ScreeningEvent& message : untold) {
+    const std::pair pair(IdOf(message.event().lower()), IdOf(message.event().higher()));
+    untold_.Touch(pair) = std::move(message);
+  }
+}
+
+std::vector<v1::ScreeningEvent> ScreeningEvents::TakeInherited(const World& world) {
   std::vector<v1::ScreeningEvent> messages;
+  untold_.ForEach([&](const auto&, v1::ScreeningEvent& last) {
+    if (IsOver(last.event().status()) && Address(world, &last)) messages.push_back(last);
+  });
+  untold_.Clear();
   for (const Telling& telling : filter_.Standing()) {
     if (auto message = MessageOf(telling.event, world)) messages.push_back(std::move(*message));
   }
@@ -41,6 +65,7 @@ std::vector<v1::ScreeningEvent> ScreeningEvents::Standing(const World& world) co
 }
 
 void ScreeningEvents::Forget() {
+  untold_.Clear();
   filter_.Forget();
   labels_.Forget();
 }
@@ -48,13 +73,11 @@ void ScreeningEvents::Forget() {
 std::optional<v1::ScreeningEvent> ScreeningEvents::MessageOf(const detection::CollisionEvent& event,
                                                              const World& world) const {
   const detection::AgentId& agent = HypotheticalOf(event);
-  const auto owner = world.simulators().find(agent.simulator);
-  if (owner == world.simulators().end() || owner->second.run() != agent.run) return std::nullopt;
   v1::ScreeningEvent message;
   message.set_simulator_id(agent.simulator);
   message.set_pair_slot(event.pair_slot);
   message.set_run(agent.run);
-  message.set_incarnation(owner->second.incarnation());
+  if (!Address(world, &message)) return std::nullopt;
   *message.mutable_event() = Encode(event);
   AddBecause(world.ended_runs(), message.mutable_event());
   AddLabels(labels_.Of(event), message.mutable_event());

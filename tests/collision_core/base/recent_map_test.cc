@@ -50,5 +50,14 @@ TEST(RecentMap, AValueIsKeptHoweverOftenItsKeyIsTouched) {
   EXPECT_EQ(map.Find(0), nullptr);
 }
 
+TEST(RecentMap, ForEachTellsEveryKeyOnceTheEarlierGenerationFirst) {
+  RecentMap<int, int> map(2);
+  for (const int key : {5, 4, 3}) map.Touch(key) = 10 * key;
+  std::vector<std::pair<int, int>> all;
+  map.ForEach([&](int key, int& value) { all.emplace_back(key, value++); });
+  EXPECT_EQ(all, (std::vector<std::pair<int, int>>{{4, 40}, {5, 50}, {3, 30}}));
+  EXPECT_EQ(*map.Find(4), 41);
+}
+
 }  // namespace
 }  // namespace collision
