@@ -77,21 +77,4 @@ class ConvexSolid {
   ConvexFacts facts_;
 };
 
-/// All points x with n·(x − p) <= 0, in the body frame. It is unbounded, so it suits only agents
-/// that do not move, or queries in which nothing far away counts. (The HalfSpace of broad_phase/ is
-/// fixed in the world.) A library type: the service has no shape of this kind
-/// (narrow_phase/convex_pair/convex_distance.h).
-struct ConvexHalfSpace {
-  Eigen::Vector3d normal{0, 0, 1};  ///< n, of any length but zero.
-  Eigen::Vector3d point{0, 0, 0};   ///< p, on its boundary [m].
-};
-
-/// Allowed lengths of a half-space's normal: outside, squares lose digits.
-inline constexpr double kNormalLengthMin = 1e-100;
-inline constexpr double kNormalLengthMax = 1e100;
-
-/// Why a half-space cannot be used: a normal out of range or a number that is not finite. nullopt:
-/// it can.
-std::optional<std::string> RefusalOf(const ConvexHalfSpace& half_space);
-
 }  // namespace collision::shape

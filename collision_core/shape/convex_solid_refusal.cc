@@ -29,12 +29,15 @@ Refusal RefusalOfPlace(const std::string& field, const Vector3d& p) {
   return std::nullopt;
 }
 
-/// The squared length of a quaternion must neither overflow nor lose its digits.
+/// Allowed lengths of a quaternion: outside, squares overflow or lose their digits.
+constexpr double kTurnLengthMin = 1e-100;
+constexpr double kTurnLengthMax = 1e100;
+
 Refusal RefusalOfTurn(const Eigen::Quaterniond& q) {
   const double length = q.coeffs().stableNorm();
-  if (IsIn(length, kNormalLengthMin, kNormalLengthMax)) return std::nullopt;
+  if (IsIn(length, kTurnLengthMin, kTurnLengthMax)) return std::nullopt;
   return "convex.q_BS has the length " + NumberText(length) + "; allowed are " +
-         NumberText(kNormalLengthMin) + " to " + NumberText(kNormalLengthMax);
+         NumberText(kTurnLengthMin) + " to " + NumberText(kTurnLengthMax);
 }
 
 Refusal RefusalOfPoints(const std::vector<Vector3d>& points) {
@@ -100,15 +103,6 @@ Refusal RefusalOf(const ConvexDescription& d) {
   return "convex: its size is " + NumberText(size) + " m; allowed are " +
          NumberText(kConvexSizeMin) + " to " + NumberText(kConvexSizeMax) +
          " m (most likely the unit is not the one meant)";
-}
-
-Refusal RefusalOf(const ConvexHalfSpace& half_space) {
-  const double length = half_space.normal.stableNorm();
-  if (!IsIn(length, kNormalLengthMin, kNormalLengthMax)) {
-    return "half_space.normal has the length " + NumberText(length) + "; allowed are " +
-           NumberText(kNormalLengthMin) + " to " + NumberText(kNormalLengthMax);
-  }
-  return RefusalOfPlace("half_space.point", half_space.point);
 }
 
 }  // namespace collision::shape

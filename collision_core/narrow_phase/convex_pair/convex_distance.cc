@@ -89,33 +89,4 @@ numeric::Interval IntervalOf(const geometry::ConvexSet& a, const geometry::Conve
   return {bracket.separation_lower(), bracket.separation_upper()};
 }
 
-// The nearest point of A along −n is at x = c + support: its height n·(x − p) over the boundary is
-// off by |n − exact| |x − p|, by the point's error, and by rounding relative to
-// S = |c − p|₁ + span (as GapError() of a pair).
-ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const PosedHalfSpace& b) {
-  // On the error of n: |x − p| is computed, and exceeds S by its rounding at most.
-  constexpr double kSizeShare = 0x1p-40;
-  const geometry::ConvexSet boundary = geometry::BallSet(b.point, 0);
-  const geometry::ConvexPair pair(boundary, a);
-  const geometry::ConvexPair::Point lowest = pair.Against(b.normal);
-  const double height = b.normal.dot(lowest.y);
-  const double turned = numeric::AddUp(b.normal_error, kSizeShare * b.normal_error);
-  const double error = numeric::AddUp(
-      numeric::AddUp(pair.GapError(), numeric::MultiplyUp(kUnitVectorError, std::abs(height))),
-      numeric::AddUp(numeric::MultiplyUp(turned, pair.size()),
-                     numeric::AddUp(a.error, b.point_error)));
-  ConvexSeparation result;
-  result.separation = {numeric::AddDown(height, -numeric::AddUp(a.rounding, error)),
-                       numeric::AddUp(height, numeric::AddUp(-a.rounding, error))};
-  result.normal = -b.normal;
-  result.normal_error = std::min(std::numbers::pi, kHalfPiUp * turned + kUnitVectorError);
-  const Vector3d foot = b.point + lowest.y;
-  result.a = foot - a.rounding * b.normal;
-  result.b = foot - height * b.normal;
-  result.point_error =
-      numeric::AddUp(error, kPointRounding * (b.point.cwiseAbs().sum() + pair.size() + a.rounding));
-  if (result.separation.upper <= 0) result.b = result.a;
-  return result;
-}
-
 }  // namespace collision::narrow_phase

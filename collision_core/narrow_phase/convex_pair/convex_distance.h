@@ -2,8 +2,8 @@
 //
 // A search proposes (convex_search.h), facts certify (convex_bracket.h). Overlapping projections
 // give the shift that takes the two apart, so one number with a sign serves distance and depth.
-// Boxes, capsules, hulls and triangles are known to about 64 · 2^-53 of their size. A half-space
-// needs no search. A search may begin where an earlier one ended: then one step confirms it.
+// Boxes, capsules, hulls and triangles are known to about 64 · 2^-53 of their size. A search may
+// begin where an earlier one ended: then one step confirms it.
 #pragma once
 
 #include <numbers>
@@ -44,13 +44,5 @@ ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const geometry::Conv
 /// Only ConvexSeparation::separation of the same query; faster.
 numeric::Interval IntervalOf(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                              const ConvexQuery& query, WorkBudget* work);
-
-/// The distance or depth of a convex set A and a half-space B, exact but for rounding. The shortest
-/// shift that takes the two apart is along the half-space's normal.
-///
-/// A library call: no shape of the service holds a half-space. It is the narrow phase's entry for
-/// floors and walls, which the broad phase can hold (broad_phase/half_space.h). Caller:
-/// convex_pose_test.
-ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const PosedHalfSpace& b);
 
 }  // namespace collision::narrow_phase

@@ -1,24 +1,8 @@
 #include "collision_core/narrow_phase/pose/convex_pose.h"
 
-#include <cmath>
-
 #include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
-namespace {
-
-using Eigen::Vector3d;
-
-/// Relative error of a root of a sum of three products and of a division.
-constexpr double kUnitError = 8 * numeric::kUnitRoundoff;
-
-/// n / |n|.
-PosedHalfSpace Normalised(const shape::ConvexHalfSpace& half_space) {
-  const double length = half_space.normal.stableNorm();
-  return {half_space.normal / length, half_space.point, 0, kUnitError};
-}
-
-}  // namespace
 
 // A point of the core is c + Σ s_i g_i with |s_i| <= 1 (kHull: c + G x). matrix_error holds for
 // each vector posed (relative_pose.h), so that the exact pose of the point is off by at most
@@ -43,25 +27,6 @@ geometry::ConvexSet PosedA(const geometry::ConvexSet& of_a, const RelativePose& 
   geometry::ConvexSet posed = of_a;
   const double far = numeric::AddUp(geometry::LengthUp(of_a.centre), of_a.span);
   posed.error = numeric::AddUp(of_a.error, numeric::MultiplyUp(pose.chord_A, far));
-  return posed;
-}
-
-PosedHalfSpace PosedA(const shape::ConvexHalfSpace& of_a, const RelativePose& pose) {
-  PosedHalfSpace posed = Normalised(of_a);
-  posed.normal_error = numeric::AddUp(posed.normal_error, pose.chord_A);
-  posed.point_error = numeric::MultiplyUp(pose.chord_A, geometry::LengthUp(of_a.point));
-  return posed;
-}
-
-PosedHalfSpace PosedB(const shape::ConvexHalfSpace& of_b, const RelativePose& pose) {
-  PosedHalfSpace posed = Normalised(of_b);
-  const double share = numeric::AddUp(pose.matrix_error, pose.chord_B);
-  const double length = geometry::LengthUp(of_b.point);
-  posed.normal = pose.R_AB * posed.normal;
-  posed.point = pose.R_AB * of_b.point + pose.p_AB;
-  posed.normal_error =
-      numeric::AddUp(posed.normal_error, numeric::MultiplyUp(numeric::kManyRoundingsUp, share));
-  posed.point_error = numeric::AddUp(pose.offset_error, numeric::MultiplyUp(share, length));
   return posed;
 }
 

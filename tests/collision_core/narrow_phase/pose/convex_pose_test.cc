@@ -1,4 +1,4 @@
-// Sets in another body's frame, half-spaces, and fronts in motion.
+// Sets in another body's frame, and fronts in motion.
 #include "collision_core/narrow_phase/pose/convex_pose.h"
 
 #include <gtest/gtest.h>
@@ -85,107 +85,6 @@ TEST(ConvexPose, TurningCounts) {
   EXPECT_GE(PosedB(ball.set(), pose).error, 1.25);
   EXPECT_LE(PosedA(ball.set(), pose).error, 2.5 * (1 + 1e-12));
   EXPECT_LE(PosedB(ball.set(), pose).error, 1.25 * (1 + 1e-12));
-}
-
-// Goal:   a solid over the ground: its height is contained and known to rounding, over and under
-//         it.
-// Method: a normal (2, 3, 6), 7 long, so that heights are rational; also half-spaces that are
-//         turned.
-TEST(ConvexPose, HalfSpaces) {
-  Random random(332);
-  for (int i = 0; i < 500; ++i) {
-    const double size = random.LogUniform(1e-3, 1e3);
-    const shape::ConvexDescription d = RandomPolytope(random, size);
-    const shape::ConvexSolid solid = shape::ConvexSolid::Build(d);
-    const shape::ConvexHalfSpace ground{{2, 3, 6}, size * random.UnitVector()};
-    ASSERT_FALSE(RefusalOf(ground));
-    const RelativePose still = PoseOf(Eigen::Matrix3d::Identity(), {0, 0, 0});
-    const ConvexSeparation found = SeparationOf(solid.set(), PosedB(ground, still));
-    const ExactPoints corners = ExactCorners(d);
-    const ExactVector n(2, 3, 6);
-    Exact least = Dot(n, corners[0] - ExactVector(ground.point));
-    for (const ExactVector& x : corners) {
-      least = std::min(least, Dot(n, x - ExactVector(ground.point)));
-    }
-    const Exact height = least / 7 - Exact(d.rounding);
-    EXPECT_TRUE(Contains(found.separation, height)) << i;
-    EXPECT_LT(found.separation.width(), 1e-13 * size) << i;
-    EXPECT_NEAR((found.b - found.a).norm(), std::max(0.0, found.separation.upper),
-                2 * found.point_error + found.separation.width());
-  }
-}
-
-TEST(ConvexPose, EllipsoidOverTheGround) {
-  Random random(333);
-  for (int i = 0; i < 300; ++i) {
-    shape::ConvexDescription d = RandomBox(random, 1);
-    d.core = geometry::ConvexCore::kEllipsoid;
-    d.p_BS = 3 * random.UnitVector();
-    const ExactVector n(2, 3, 6);
-    Exact square = 0;
-    for (const ExactPlacement& placement : {PlacementOf(d.q_BS, d.p_BS)}) {
-      for (int axis = 0; axis < 3; ++axis) {
-        Vector3d half = Vector3d::Zero();
-        half[axis] = d.half[axis];
-        const Exact along = Dot(n, placement(ExactVector(half)) - placement.offset);
-        square += along * along;
-      }
-    }
-    const RelativePose still = PoseOf(Eigen::Matrix3d::Identity(), {0, 0, 0});
-    const numeric::Interval found =
-        SeparationOf(shape::ConvexSolid::Build(d).set(),
-                     PosedA(shape::ConvexHalfSpace{{2, 3, 6}, {0, 0, 0}}, still))
-            .separation;
-    // (n·c − √square) / 7 lies in the interval.
-    const Exact centre = Dot(n, ExactVector(d.p_BS));
-    EXPECT_TRUE(IsAtLeast(0, Exact(0), centre - 7 * Exact(found.lower)));
-    EXPECT_LE(square, (centre - 7 * Exact(found.lower)) * (centre - 7 * Exact(found.lower)));
-    EXPECT_GE(square, (centre - 7 * Exact(found.upper)) * (centre - 7 * Exact(found.upper)));
-    EXPECT_LT(found.width(), 1e-13);
-  }
-}
-
-// Goal:   a half-space of a body that is turned in any way: the height of what lies far away is
-//         contained.
-TEST(ConvexPose, TurnedHalfSpaces) {
-  Random random(334);
-  for (int i = 0; i < 300; ++i) {
-    shape::ConvexDescription ball;
-    ball.rounding = 1;
-    ball.p_BS = random.LogUniform(1, 1e6) * random.UnitVector();
-    const shape::ConvexHalfSpace ground{{0, 0, random.LogUniform(1e-9, 1e9)}, random.UnitVector()};
-    const RelativePose pose =
-        PoseOf(RotationOf(numeric::UnitQuaternion(RandomQuaternion(random))).matrix,
-               100 * random.UnitVector());
-    const numeric::Interval found =
-        SeparationOf(shape::ConvexSolid::Build(ball).set(), PosedB(ground, pose)).separation;
-    const ExactPlacement placement = PlacementOf(pose.R_AB, pose.p_AB);
-    const ExactVector n(pose.R_AB(0, 2), pose.R_AB(1, 2), pose.R_AB(2, 2));
-    const ExactVector from = ExactVector(ball.p_BS) - placement(ExactVector(ground.point));
-    const Exact height = Dot(n, from);  // times |n|, which is 1 to within a few roundings
-    const Exact slack = Exact(1e-15) * abs(height);
-    EXPECT_LE(Exact(found.lower), height - 1 + slack);
-    EXPECT_GE(Exact(found.upper), height - 1 - slack);
-    EXPECT_LT(found.width(), 1e-13 * (ball.p_BS.norm() + 100));
-  }
-}
-
-// Goal:   a half-space that may be turned is uncertain by that times how far away the solid is.
-TEST(ConvexPose, UncertainHalfSpaces) {
-  shape::ConvexDescription ball;
-  ball.rounding = 1;
-  ball.p_BS = {100, 0, 3};
-  const shape::ConvexSolid solid = shape::ConvexSolid::Build(ball);
-  for (const bool of_A : {false, true}) {
-    RelativePose pose;
-    (of_A ? pose.chord_A : pose.chord_B) = 0.01;
-    const shape::ConvexHalfSpace ground{{0, 0, 1}, {0, 0, 0}};
-    const numeric::Interval found =
-        SeparationOf(solid.set(), of_A ? PosedA(ground, pose) : PosedB(ground, pose)).separation;
-    EXPECT_LE(found.lower, 2 - 1);
-    EXPECT_GE(found.upper, 2 + 1);
-    EXPECT_LT(found.width(), 2.2);
-  }
 }
 
 // Goal:   no corner of a set that moves along its tangents passes the front, and one nearly reaches
