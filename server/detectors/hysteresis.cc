@@ -59,7 +59,7 @@ std::vector<CollisionEvent> Hysteresis::Take(const std::vector<Event>& near,
 }
 
 bool Hysteresis::IsTold(const Event& event, const Pair& pair) {
-  if (pair.told == 0 || event.contact == pair.told || event.began_before) return true;
+  if (event.contact == pair.told || event.began_before) return true;
   const Instant by = BegunBy(event);
   return std::ranges::any_of(pair.apart,
                              [&](Instant apart) { return pair.begin < apart && apart <= by; });

@@ -109,6 +109,67 @@ TEST_F(HysteresisTest, BeingFarApartAfterwardsDoesNotCount) {
   EXPECT_EQ(Take({Confirmed(3, 21)}), "3 confirmed");
 }
 
+// Goal:   certainly: at the latest end of a time together in the second detector, not before.
+TEST_F(HysteresisTest, TheyAreFarApartFromTheLatestEndOn) {
+  for (const auto& [begun_by, told] : {std::pair(19, ""), {20, "2 confirmed"}}) {
+    hysteresis = {};
+    Take({Ended(1, 10, 12)});
+    Take({}, {Ended(1, 9, 20)});
+    EXPECT_EQ(Take({Confirmed(2, begun_by)}), told);
+  }
+}
+
+// Goal:   what was never certain ends in certain freedom, too.
+TEST_F(HysteresisTest, AnUndecidedTimeTogetherEndsFarApart) {
+  CollisionEvent undecided = Of(1, EventStatus::kUndecided);
+  undecided.begin.earliest = At(13);
+  undecided.end.latest = At(20);
+  Take({Ended(1, 10, 12)});
+  EXPECT_EQ(Take({}, {undecided}), "");
+  EXPECT_EQ(Take({Confirmed(2, 25)}), "2 confirmed");
+}
+
+// Goal:   a crossing that may have begun after they were far apart is told.
+TEST_F(HysteresisTest, AnUndecidedCrossingCountsByItsLatestBegin) {
+  CollisionEvent undecided = Of(2, EventStatus::kUndecided);
+  undecided.begin.earliest = At(13);
+  for (const auto& [latest, told] : {std::pair(19, ""), {21, "2 undecided"}}) {
+    hysteresis = {};
+    undecided.end.latest = At(latest);
+    Take({Ended(1, 10, 12)});
+    Take({}, {Ended(1, 9, 20)});
+    EXPECT_EQ(Take({undecided}), told);
+  }
+}
+
+// Goal:   to have been far apart before the crossing that was told says nothing of the next one.
+TEST_F(HysteresisTest, BeingFarApartBeforeTheOneToldDoesNotCount) {
+  for (const auto& [free_at, told] : {std::pair(20, ""), {29, ""}, {30, ""}, {31, "2 confirmed"}}) {
+    hysteresis = {};
+    Take({Confirmed(1, 30)});
+    Take({}, {Ended(1, 9, free_at)});
+    EXPECT_EQ(Take({Confirmed(2, 40)}), told) << free_at;
+  }
+}
+
+TEST_F(HysteresisTest, AForecastThatWasHeldBackAndCameToNothingIsNotTold) {
+  for (const EventStatus nothing : {EventStatus::kDismissed, EventStatus::kWithdrawn}) {
+    hysteresis = {};
+    Take({Ended(1, 10, 12)});
+    Take({Possible(2, 25)});
+    Take({Of(2, nothing)});
+    EXPECT_EQ(Take({}, {Ended(1, 9, 20)}), "");
+    EXPECT_EQ(hysteresis.withheld(), 2u);
+  }
+}
+
+TEST_F(HysteresisTest, WhatIsHeldBackWhenTheNextIsToldCountsAsWithheld) {
+  Take({Ended(1, 10, 12)});
+  Take({Confirmed(2, 14)});
+  EXPECT_EQ(Take({Confirmed(3, 30)}, {Ended(1, 9, 20)}), "3 confirmed");
+  EXPECT_EQ(hysteresis.withheld(), 1u);
+}
+
 TEST_F(HysteresisTest, WhatMayHaveBegunBeforeThePairWasKnownIsTold) {
   Take({Ended(1, 10, 12)});
   CollisionEvent jumped = Confirmed(2, 15);

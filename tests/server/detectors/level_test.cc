@@ -27,8 +27,12 @@ TEST(Level, IsBetweenThoseThatItNames) {
   EXPECT_FALSE(watched(a, a));
   EXPECT_FALSE(watched(b, b));
   EXPECT_FALSE(watched(a, none));
+  EXPECT_FALSE(watched(none, none));
   EXPECT_TRUE(CanMeet(levels[1].FilterOf(a), levels[1].FilterOf(none)));
   EXPECT_FALSE(CanMeet(levels[1].FilterOf(b), levels[1].FilterOf(b))) << "they cannot meet at all";
+  const broad_phase::CollisionFilter other{.group = 4, .mask = 1};
+  EXPECT_FALSE(watched(broad_phase::CollisionFilter{.group = 2, .mask = 1}, other))
+      << "a level names them, but they cannot meet";
   EXPECT_EQ(levels[0].look_ahead, result.config.announce_within_s());
   EXPECT_EQ(levels[1].look_ahead, 9);
   EXPECT_EQ(levels[1].hysteresis, 3);

@@ -166,6 +166,27 @@ TEST(Levels, ThereMayBeEightAtOnce) {
   }
 }
 
+// Goal:   readers keep the newest forecast of each slot: it belongs to one pair of one level.
+// Method: three in a row, 4 m apart, that may all come within 3 m of each other.
+TEST(Levels, EachForecastHasASlotOfItsOwn) {
+  v1::Config config = TwentyAStep();
+  AddLevel("near", 3, &config);
+  AddLevel("nearer", 2, &config);
+  const auto events =
+      Fly(config, {AtRest(Ball(0), 0), AtRest(Ball(1), 6), AtRest(Ball(2), 12)}, 0.5);
+  std::map<std::uint32_t, std::set<std::string>> of_slots;
+  std::set<std::string> all;
+  for (const v1::CollisionEvent& event : events) {
+    const std::string about = event.level() + " " + std::to_string(event.lower().slot()) + " " +
+                              std::to_string(event.higher().slot());
+    all.insert(about);
+    of_slots[event.pair_slot()].insert(about);
+  }
+  EXPECT_GE(all.size(), 6u);
+  EXPECT_EQ(of_slots.size(), all.size());
+  for (const auto& [slot, about] : of_slots) EXPECT_EQ(about.size(), 1u) << slot;
+}
+
 // Goal:   contacts are those of a service without levels, but for their numbers, and the same
 //         inputs give the same log.
 TEST(Levels, ChangeNoContact) {
@@ -204,6 +225,22 @@ TEST(Levels, WantStates) {
   const std::int64_t without = wanted_first(config);
   AddLevel("near", 97, &config);
   EXPECT_LT(wanted_first(config), without);
+}
+
+// Goal:   what a level announces earlier it wants states for earlier.
+// Method: two that may be 66 m apart after 4 s.
+TEST(Levels, WantStatesByTheirOwnLookAhead) {
+  std::int64_t before = kNeverNs;
+  for (const double look_ahead : {1.0, 2.0, 3.0}) {
+    v1::Config config = TwentyAStep();
+    AddLevel("near", 66, &config)->set_look_ahead_s(look_ahead);
+    ScriptedDaemon daemon(config);
+    daemon.Step(AlphaJoins(1));
+    const std::int64_t wanted_ns =
+        daemon.clearance(SimulatorId("alpha")).agents(0).state_wanted_ns();
+    EXPECT_LT(wanted_ns, before) << look_ahead;
+    before = wanted_ns;
+  }
 }
 
 }  // namespace

@@ -267,6 +267,27 @@ TEST(Screening, EndsWithItsLastAgent) {
   EXPECT_THROW(skies.daemon().counter("hypothetical_agents"), std::logic_error);
 }
 
+// Goal:   a program hears nothing of what the run before its own had planned.
+TEST(Screening, TellsNothingOfARunThatIsOver) {
+  for (const bool next_run : {false, true}) {
+    Skies skies;
+    skies.Add({.simulator = "alpha", .slot = 0});
+    skies.Add({.simulator = "beta", .slot = 1, .x = 4, .hypothetical = true});
+    skies.RunTo(1);
+    const std::size_t told = skies.Screened().size();
+    ASSERT_GT(told, 0u);
+    if (next_run) {
+      skies.daemon().Step({Liveliness(kBeta, "beta", false)});
+      skies.daemon().Step({From(12, Description("beta", 0, 2))});
+      EXPECT_EQ(skies.daemon().status().agents(), 1u);
+    } else {
+      skies.Remove("beta", 1);
+      skies.RunTo(1.5);
+    }
+    EXPECT_EQ(skies.Screened().size() - told, next_run ? 0 : 1);
+  }
+}
+
 // Goal:   whether an agent is hypothetical never changes: a description that says otherwise is
 //         refused with its field, and the one before stays in force.
 TEST(Screening, RefusesToMakeAHypotheticalAgentReal) {
