@@ -82,6 +82,7 @@ class Daemon::Implementation {
   const std::string& state_failure() const { return journal_.failure(); }
   const ServiceClaim& claim() const { return claim_; }
   const EventLog& event_log() const { return publisher_.event_log(); }
+  const EventLog& screening_log() const { return publisher_.screening_log(); }
 
  private:
   /// The step after its batch was received. False: the service is to end.
@@ -444,5 +445,7 @@ void Daemon::Stop() { implementation_->Stop(); }
 const ServiceClaim& Daemon::claim() const { return implementation_->claim(); }
 
 const EventLog& Daemon::event_log() const { return implementation_->event_log(); }
+
+const EventLog& Daemon::screening_log() const { return implementation_->screening_log(); }
 
 }  // namespace collision::server

@@ -71,6 +71,8 @@ class Daemon {
 
   /// Every collision event published so far.
   const EventLog& event_log() const;
+  /// Likewise of hypothetical agents.
+  const EventLog& screening_log() const;
 
  private:
   class Implementation;

@@ -153,7 +153,7 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
   const bool yields = daemon.claim().phase() == ClaimPhase::kYielded;
   const bool starts_afresh = yields && parts.claim.stands_by && !signals.stopped();
   if (!starts_afresh) service_manager.Stopping();
-  LogFingerprint(daemon.event_log());
+  LogFingerprint(daemon);
   const bool needs_recording = config.on_recording_failure() == v1::Config::END;
   if (needs_recording && recorder && !recorder->error().empty()) {
     return Fail(kExitFile, recorder->error() +
@@ -179,11 +179,15 @@ int Fail(ExitCode code, const std::string& line) {
   return code;
 }
 
-void LogFingerprint(const EventLog& log) {
+void LogFingerprint(const Daemon& daemon) {
   EndLogging();
   const auto level = spdlog::get_level();
   spdlog::set_level(spdlog::level::info);
-  spdlog::info("event log: {} events, hash {:016x}", log.count(), log.hash());
+  const auto write = [](const char* what, const EventLog& log) {
+    spdlog::info("{} log: {} events, hash {:016x}", what, log.count(), log.hash());
+  };
+  if (daemon.screening_log().count() > 0) write("screening", daemon.screening_log());
+  write("event", daemon.event_log());
   spdlog::set_level(level);
 }
 

@@ -11,12 +11,13 @@
 #include "server/claim/journal.h"
 #include "server/claim/quarantine.h"
 #include "server/claim/service_claim.h"
-#include "server/publish/event_log.h"
 #include "server/recording/recording.h"
 #include "server/service/exit_code.h"
 #include "server/shapes/tree_store.h"
 
 namespace collision::server {
+
+class Daemon;
 
 /// The end of the line about a journal that ends the service.
 inline constexpr char kGoOnInstead[] =
@@ -53,8 +54,9 @@ std::optional<int> Serve(const v1::Config& config, Bus& bus, ServiceParts parts)
 /// shapes, the recording holds the bytes of the shape.
 int EndOnFailure(const std::function<int()>& run);
 
-/// Logs number and hash of all events, whatever the log level: two runs are compared by this line.
-void LogFingerprint(const EventLog& log);
+/// Logs number and hash of all events, whatever the log level: two runs are compared by this line,
+/// the last one. Where there were hypothetical agents, that of their events comes before.
+void LogFingerprint(const Daemon& daemon);
 
 /// Prints why the program fails to standard error; returns `code`.
 int Fail(ExitCode code, const std::string& line);

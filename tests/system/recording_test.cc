@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include <fstream>
+#include <sstream>
 
 #include "tests/system/test_world.h"
 
@@ -34,6 +35,35 @@ TEST(Recording, ReplayGivesTheSameEventLog) {
   EXPECT_EQ(bounds.status, 0) << bounds.err;
   EXPECT_TRUE(Contains(bounds.out, "left-sim/left ")) << bounds.out;
   EXPECT_TRUE(Contains(bounds.out, "right-sim/right ")) << bounds.out;
+}
+
+// Goal:   what the owner of a hypothetical agent was told is told again, and nothing else of it.
+TEST(Recording, ReplayScreensHypotheticalAgentsAgain) {
+  const TestWorld world(84, "simulators_awaited: 2 grant_ahead_max_s: 0.1");
+  const std::string recording = world.folder().Path("run.rec");
+  const auto daemon = world.StartDaemon({"--record", recording});
+  const auto real = world.StartSimulator(kLeft);
+  const auto plan = world.StartSimulator(kRight, {"--hypothetical"});
+  ASSERT_EQ(real->WaitForExit(), 0) << real->err();
+  ASSERT_EQ(plan->WaitForExit(), 0) << plan->err();
+  daemon->Signal(SIGTERM);
+  ASSERT_EQ(daemon->WaitForExit(), 0) << daemon->err();
+  EXPECT_TRUE(Contains(plan->out(), "confirmed  left × right")) << plan->out();
+  EXPECT_TRUE(Contains(plan->out(), "hypothetical")) << plan->out();
+  const std::string screened = LogLine("screening log:", daemon->err());
+  ASSERT_NE(screened, "") << daemon->err();
+
+  const Outcome replay = RunToEnd({Program("collisiond"), "--replay", recording});
+  EXPECT_EQ(replay.status, 0) << replay.err;
+  EXPECT_EQ(LogLine("screening log:", replay.err), screened);
+  EXPECT_EQ(EventLogLine(replay.err), "event log: 0 events, hash cbf29ce484222325");
+  for (const char* status : {"EVENT_POSSIBLE", "EVENT_CONFIRMED", "EVENT_ENDED"}) {
+    EXPECT_NE(replay.out.find(status), std::string::npos) << status << "\n" << replay.out;
+  }
+  std::istringstream lines(replay.out);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_TRUE(line.starts_with("{\"simulator_id\":")) << line;
+  }
 }
 
 TEST(Recording, WhatCannotBeReplayedIsOneClearLine) {

@@ -208,13 +208,20 @@ int Serve(const v1::Config& config, const std::string& record_file) {
   }
 }
 
+/// An event as it is: of a hypothetical agent the message to its owner, which holds one.
+const google::protobuf::Message* EventIn(const v1::Output& output) {
+  if (output.has_collision_event()) return &output.collision_event();
+  return output.has_screening_event() ? &output.screening_event() : nullptr;
+}
+
 void PrintEvent(const v1::Output& output) {
-  if (!output.has_collision_event()) return;
+  const google::protobuf::Message* event = EventIn(output);
+  if (event == nullptr) return;
   google::protobuf::util::JsonPrintOptions options;
   options.preserve_proto_field_names = true;
   options.always_print_primitive_fields = true;
   std::string line;
-  if (google::protobuf::util::MessageToJsonString(output.collision_event(), &line, options).ok()) {
+  if (google::protobuf::util::MessageToJsonString(*event, &line, options).ok()) {
     std::cout << line << '\n';
   }
 }
@@ -226,7 +233,7 @@ int Replay(RecordingReader& reader) {
   while (daemon.Step()) {
   }
   std::cout.flush();
-  LogFingerprint(daemon.event_log());
+  LogFingerprint(daemon);
   if (!reader.error().empty()) return Fail(kExitFile, reader.error());
   return std::cout ? kExitOk : Fail(kExitFile, "standard output cannot be written");
 }

@@ -34,6 +34,7 @@ AgentDescription Description(const PlayedAgent& agent, const PlayerOptions& opti
   } else {
     description.acceleration_max_m_s2 = agent.trajectory.AccelerationMax();
   }
+  description.hypothetical = options.hypothetical;
   description.shape = options.shape;
   if (options.shape) description.angular_acceleration_max_rad_s2 = 0;
   return description;

@@ -28,6 +28,7 @@ struct PlayerOptions {
   std::shared_ptr<const Shape> shape = nullptr;
   /// Floors and walls, which are there from the start on. The motion log does not know them.
   std::vector<HalfSpace> half_spaces = {};
+  bool hypothetical = false;  ///< All agents are plans to be screened.
 };
 
 /// One agent to play.

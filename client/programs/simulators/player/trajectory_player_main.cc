@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "client/api/event_text.h"
 #include "client/library/validation.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/mesh_option.h"
@@ -140,6 +141,21 @@ void TakeMesh(Options* options) {
   }
 }
 
+// The motion checker knows only what is there: throws BadInput for plans.
+void CheckPlans(const Options& options) {
+  if (options.player.hypothetical && !options.simulator.motion_log.empty()) {
+    throw BadInput("--hypothetical: beside --motion-log, allowed: one of the two");
+  }
+}
+
+void PrintScreening(Pace* pace) {
+  pace->world().OnEvent([pace](const Event& event) {
+    if (!event.hypothetical) return;
+    const auto name = [pace](const AgentId& id) { return pace->world().Name(id); };
+    std::printf("%s\n", EventLine(event, name, pace->start_ns()).c_str());
+  });
+}
+
 int Run(Options options) {
   std::error_code ignored;
   if (std::filesystem::is_directory(options.file, ignored)) {
@@ -160,6 +176,7 @@ int Run(Options options) {
   Pace pace(options.simulator);
   const std::vector<PlayedAgent> agents = Choose(options, file, pace.start_ns());
   Print(options, agents);
+  if (!options.quiet) PrintScreening(&pace);
   Play(agents, options.player, &pace, &log);
   log.Close();
   pace.ReportTraffic(options.quiet);
@@ -203,6 +220,8 @@ const CLI::Option* AddPlayerOptions(CLI::App* app, Options* options) {
                   "A floor or a wall: NX,NY,NZ,OFFSET, all x with n·x <= OFFSET [m], n of length "
                   "1; may be given several times")
       ->delimiter(',');
+  app->add_flag("--hypothetical", options->player.hypothetical,
+                "Add the agents as plans to be screened, and print what they would meet");
   app->add_flag("--quiet", options->quiet, "Print nothing but what goes wrong");
   return radius;
 }
@@ -254,6 +273,7 @@ int main(int argc, char** argv) {
   CatchStopSignals();
   return RunProgram("trajectory-player", [&options]() -> int {
     TakeHalfSpaces(&options);
+    CheckPlans(options);
     try {
       return Run(options);
     } catch (const CsvError& error) {
