@@ -81,8 +81,7 @@ class Daemon::Implementation {
 
   const std::string& state_failure() const { return journal_.failure(); }
   const ServiceClaim& claim() const { return claim_; }
-  const EventLog& event_log() const { return publisher_.event_log(); }
-  const EventLog& screening_log() const { return publisher_.screening_log(); }
+  const Publisher& said() const { return publisher_; }
 
  private:
   /// The step after its batch was received. False: the service is to end.
@@ -159,8 +158,7 @@ class Daemon::Implementation {
     return std::chrono::nanoseconds(std::max<std::int64_t>(wait, 0));
   }
 
-  /// Takes the time of this step and records what it applies. False: it could not be recorded, and
-  /// that is to end the service.
+  /// Takes the time of this step and records its inputs. False: that failed, and ends the service.
   bool Begin(const ClockReading& reading, std::vector<v1::Input>* inputs) {
     if (const auto step = world_.SetReading(reading)) clock_step_ = step;
     ++steps_.batches;
@@ -444,8 +442,8 @@ void Daemon::Stop() { implementation_->Stop(); }
 
 const ServiceClaim& Daemon::claim() const { return implementation_->claim(); }
 
-const EventLog& Daemon::event_log() const { return implementation_->event_log(); }
+const EventLog& Daemon::event_log() const { return implementation_->said().event_log(); }
 
-const EventLog& Daemon::screening_log() const { return implementation_->screening_log(); }
+const EventLog& Daemon::screening_log() const { return implementation_->said().screening_log(); }
 
 }  // namespace collision::server
