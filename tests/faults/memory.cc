@@ -20,8 +20,15 @@ constexpr std::size_t kService = 256 << 10;   ///< Its tables when they are empt
 constexpr std::size_t kSimulator = 32 << 10;  ///< In the service: clocks, refusals, clearances.
 constexpr std::size_t kAgent = 8 << 10;       ///< In the service: states, a row in each table.
 constexpr std::size_t kClient = 48 << 10;     ///< A World or a monitor without an agent.
-constexpr std::size_t kOwnAgent = 6 << 10;    ///< In its World, with events that wait to be told.
+constexpr std::size_t kOwnAgent = 4 << 10;    ///< In its World.
 constexpr std::size_t kRemembered = 128;      ///< A pair that a client was told of.
+
+/// An event that waits in a client until its program takes a step: the message of 336 bytes, and
+/// ids, brackets and stamp of some 32 bytes each. Of each pair the newest waits (HeldForecasts),
+/// and a service that comes back tells of all pairs at once. So there are no more than pairs at a
+/// time, nor than pairs that the client was told of.
+constexpr std::size_t kWaitingEvent = 512;
+
 constexpr std::size_t kShapeByte = 64;  ///< Of a shape as it is sent: its trees, in a service.
 constexpr std::size_t kWaitingSample = 2048;  ///< Taken from the network, and handed on.
 
@@ -33,6 +40,7 @@ struct Size {
   std::size_t clients = 0;      ///< Worlds and monitors.
   std::size_t own_agents = 0;   ///< In all Worlds together, over the run.
   std::size_t told_pairs = 0;   ///< Likewise those that programs were told of.
+  std::size_t waiting = 0;      ///< Events that may wait in all clients at a time.
   std::size_t shape_bytes = 0;  ///< Of all shapes together.
 };
 
@@ -53,6 +61,13 @@ std::size_t AgentsAtATime(const Scene& scene) {
 
 using Pairs = std::set<std::pair<client::AgentId, client::AgentId>>;
 
+/// A client more, which was told of these pairs.
+void AddClient(const Pairs& told, Size* size) {
+  ++size->clients;
+  size->told_pairs += std::min(told.size(), 2 * client::RevisionFilter::kPairsMax);
+  size->waiting += std::min(told.size(), size->pairs);
+}
+
 Size SizeOf(const Scene& scene, std::size_t strangers) {
   Size size;
   size.agents = AgentsAtATime(scene) + strangers;
@@ -70,7 +85,7 @@ Size SizeOf(const Scene& scene, std::size_t strangers) {
     Pairs told;
     for (const HeardEvent& heard : one->heard())
       told.insert({heard.event.lower, heard.event.higher});
-    size.told_pairs += std::min(told.size(), 2 * client::RevisionFilter::kPairsMax);
+    AddClient(told, &size);
   }
   for (const client::Shape* shape : shapes) size.shape_bytes += shape->bytes().size();
   for (std::size_t i = 0; i < scene.monitors(); ++i) {
@@ -79,11 +94,10 @@ Size SizeOf(const Scene& scene, std::size_t strangers) {
       const client::Event event = client::FromMessage(heard.event);
       told.insert({event.lower, event.higher});
     }
-    size.told_pairs += std::min(told.size(), 2 * client::RevisionFilter::kPairsMax);
+    AddClient(told, &size);
   }
   size.simulators =
       std::min<std::size_t>(names.size() + strangers, scene.config().simulators_max());
-  size.clients = scene.simulators().size() + scene.monitors();
   return size;
 }
 
@@ -111,7 +125,8 @@ class MemoryJudge {
                                 2 * sizeof(detection::PairRecord) * slots +
                                 kShapeByte * size_.shape_bytes + waiting;
     const std::size_t clients = kClient * size_.clients + kOwnAgent * size_.own_agents +
-                                kRemembered * size_.told_pairs + waiting;
+                                kRemembered * size_.told_pairs + kWaitingEvent * size_.waiting +
+                                waiting;
     JudgeOwner(Owner::kServices, "services", scene_.services() * service);
     JudgeOwner(Owner::kClients, "clients", clients);
   }
