@@ -2,7 +2,8 @@
 //         of nothing that it knows, of what it does not know, and of what ended while nobody told;
 //         screening goes on; and no other simulator's clearance depends on any of it.
 // Method: two services, one of which stands by, and two simulators with the library, which all go
-//         by one clock. The first service falls silent, and its end is noticed half a second later.
+//         by one clock. The first service falls silent, and its end is noticed half a second later;
+//         in lock-step time stands meanwhile.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,10 +26,15 @@ namespace {
 constexpr double kStepS = 0.05;
 constexpr double kCrashS = 4, kNoticedS = 4.5;  ///< The end of the first service.
 
-v1::Config Wall() {
+v1::Config ConfigOf(v1::Clock::Kind kind) {
   v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
-  config.mutable_clock()->set_skew_max_s(0.002);
+  config.mutable_clock()->set_kind(kind);
+  if (kind == v1::Clock::REAL_TIME) {
+    config.mutable_clock()->set_skew_max_s(0.002);
+  } else {
+    config.mutable_clock()->set_simulators_awaited(2);
+    config.mutable_clock()->set_grant_ahead_max_s(0.1);
+  }
   config.set_on_occupied(v1::Config::STAND_BY);
   return config;
 }
@@ -36,6 +42,8 @@ v1::Config Wall() {
 /// Carries what simulators write to both services, and what these say to all of them.
 class TwoServices {
  public:
+  explicit TwoServices(v1::Clock::Kind kind) : kind_(kind) {}
+
   World Connect(std::uint64_t sender, const std::string& simulator);
 
   void Step() {
@@ -85,13 +93,12 @@ class TwoServices {
     }
   }
 
+  const v1::Clock::Kind kind_;
   std::unique_ptr<server::ScriptedDaemon> first_ = std::make_unique<server::ScriptedDaemon>(
-      Wall(), server::DaemonParts{.claim = {
-                                      .instance = 1,
-                                      .heard_for_ns = 2'000'000'000,
-                                      .stands_by = true,
-                                  }});
-  server::ScriptedDaemon second_{Wall(),
+      ConfigOf(kind_),
+      server::DaemonParts{
+          .claim = {.instance = 1, .heard_for_ns = 2'000'000'000, .stands_by = true}});
+  server::ScriptedDaemon second_{ConfigOf(kind_),
                                  server::DaemonParts{.claim = {.instance = 2, .stands_by = true}}};
   std::vector<v1::Input> written_, heard_by_second_;
   std::map<std::uint64_t, Arrivals> inboxes_;
@@ -123,7 +130,7 @@ class TwoServices::Line : public Transport {
 
 World TwoServices::Connect(std::uint64_t sender, const std::string& simulator) {
   return World::Connect({.simulator = simulator,
-                         .lock_step = false,
+                         .lock_step = kind_ == v1::Clock::LOCK_STEP,
                          .run = 1,
                          .incarnation = static_cast<std::uint32_t>(sender),
                          .on_demand = false,
@@ -134,7 +141,8 @@ World TwoServices::Connect(std::uint64_t sender, const std::string& simulator) {
 /// "other" has a rock at rest and a drone that passes it by, "pilot" a ship far away and plans.
 class Scene {
  public:
-  Scene() {
+  explicit Scene(v1::Clock::Kind kind = v1::Clock::REAL_TIME)
+      : lock_step_(kind == v1::Clock::LOCK_STEP), services_(kind) {
     other_.OnEvent([this](const Event& event) { heard_by_other_.push_back(event); });
     pilot_.OnEvent([this](const Event& event) { heard_.push_back(event); });
     movers_.push_back({other_.AddAgent(Ball("rock"), At(0, 0)), 0, 0});
@@ -170,12 +178,16 @@ class Scene {
   void FlyTo(double until_s) {
     for (; now() < until_s - kStepS / 2; ++step_) {
       for (Mover& mover : movers_) mover.agent.SetState(At(mover.x, mover.v, mover.y));
+      if (step_ == Steps(kCrashS)) services_.CrashFirst();
+      if (lock_step_) {
+        TakeStep();
+        continue;
+      }
+      if (step_ == Steps(kNoticedS)) services_.NoticeTheEndOfFirst();
       for (World* world : {&pilot_, &other_}) {
         world->Publish(services_.wall_ns());
         world->Poll();
       }
-      if (step_ == Steps(kCrashS)) services_.CrashFirst();
-      if (step_ == Steps(kNoticedS)) services_.NoticeTheEndOfFirst();
       services_.Step();
     }
     for (World* world : {&pilot_, &other_}) world->Poll();
@@ -224,10 +236,26 @@ class Scene {
   static int Steps(double seconds) { return static_cast<int>(seconds / kStepS + 0.5); }
   double now() const { return kStepS * step_; }
 
+  std::int64_t stamp_ns() { return lock_step_ ? SimulatedNs() : services_.wall_ns(); }
+  std::int64_t SimulatedNs() const { return step_ * static_cast<std::int64_t>(kStepS * 1e9); }
+
+  /// Lock-step: both take the step, as soon as they may.
+  void TakeStep() {
+    constexpr int kTriesMax = 200;
+    for (int tries = 0; tries < kTriesMax; ++tries) {
+      if (step_ >= Steps(kCrashS) && tries == Steps(kNoticedS - kCrashS)) {
+        services_.NoticeTheEndOfFirst();
+      }
+      const Advance pilot = pilot_.AdvanceTo(SimulatedNs(), std::chrono::nanoseconds(0));
+      const Advance other = other_.AdvanceTo(SimulatedNs(), std::chrono::nanoseconds(0));
+      if (pilot == Advance::kReached && other == Advance::kReached) return;
+      services_.Step();
+    }
+    ADD_FAILURE() << "time stands at " << now();
+  }
+
   State At(double x, double v, double y = 0) {
-    return {.stamp_ns = services_.wall_ns(),
-            .position_m = {x + v * now(), y, 0},
-            .velocity_m_s = {v, 0, 0}};
+    return {.stamp_ns = stamp_ns(), .position_m = {x + v * now(), y, 0}, .velocity_m_s = {v, 0, 0}};
   }
 
   std::vector<Mover>::iterator Find(const std::string& plan) {
@@ -235,6 +263,7 @@ class Scene {
         movers_, [&](const Mover& mover) { return mover.agent.id() == plans_.at(plan); });
   }
 
+  const bool lock_step_;
   TwoServices services_;
   World pilot_ = services_.Connect(1, "pilot"), other_ = services_.Connect(2, "other");
   std::vector<Mover> movers_;
@@ -264,6 +293,26 @@ TEST(ScreeningTakeOver, EachOutcomeIsToldOnce) {
   EXPECT_EQ(scene.Heard("gone", EventStatus::kWithdrawn), 1u);
   EXPECT_EQ(scene.Heard("gone").back().status, EventStatus::kWithdrawn);
   for (const Event& event : scene.heard()) EXPECT_TRUE(event.hypothetical);
+}
+
+// Goal:   likewise where time stands until the next service tells; and it does not stand for ever.
+TEST(ScreeningTakeOver, InLockStepEachOutcomeIsToldOnce) {
+  Scene scene(v1::Clock::LOCK_STEP);
+  for (const auto& [plan, touches_s] :
+       {std::pair("over", 2.0), {"ends", 3.02}, {"begins", 4.02}, {"stands", 5.75}}) {
+    scene.AddPlan(plan, touches_s);
+  }
+  scene.AddPlan("gone", 5.25);
+  scene.FlyTo(4.25);
+  scene.Remove("gone");
+  scene.FlyTo(14);
+  for (const char* plan : {"over", "ends", "begins", "stands"}) {
+    EXPECT_GE(scene.Heard(plan, EventStatus::kPossible), 1u) << plan;
+    EXPECT_GE(scene.Heard(plan, EventStatus::kConfirmed), 1u) << plan;
+    EXPECT_EQ(scene.Heard(plan, EventStatus::kEnded), 1u) << plan;
+    EXPECT_EQ(scene.Heard(plan).back().status, EventStatus::kEnded) << plan;
+  }
+  EXPECT_EQ(scene.Heard("gone").back().status, EventStatus::kWithdrawn);
 }
 
 // Goal:   what is said a second time is what stands, and what may have ended untold; each once.
