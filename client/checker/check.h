@@ -28,9 +28,10 @@ Violations CheckEvents(const Evidence& evidence);
 /// that of the true motions. (geometry_check.cc)
 Violations CheckGeometry(const Evidence& evidence);
 
-/// A crossing of a level that is told took place: at the ends of its brackets the bodies are within
-/// the margin, or not, as these say. Whether all are told is not judged, since a level may leave
-/// pairs and repetitions out. (level_check.cc)
+/// The same of each configured level, whose crossings are contacts of agents grown by half of its
+/// margin: all are told, those that hysteresis may hold back excepted, and announced, unless it
+/// tells only what is expected; at the ends of their brackets the bodies are within the margin, or
+/// not, as these say; and none is told again that hysteresis holds back. (level_check.cc)
 Violations CheckLevels(const Evidence& evidence);
 
 /// No true contact of an agent begins before a clear_until published earlier, unless the pair was

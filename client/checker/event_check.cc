@@ -52,8 +52,12 @@ std::string Bracket(const Evidence& evidence, const v1::TimeBracket& bracket) {
          "]";
 }
 
+const char* Word(const Evidence& evidence) {
+  return evidence.level() == nullptr ? "contact" : "crossing";
+}
+
 std::string Name(const Evidence& evidence, const TrueContact& contact) {
-  return evidence.PairName(contact.a, contact.b) + ", true contact " +
+  return evidence.PairName(contact.a, contact.b) + ", true " + Word(evidence) + " " +
          evidence.Time(contact.begin_ns) + " to " + evidence.Time(contact.end_ns);
 }
 
@@ -128,9 +132,16 @@ bool Reported(const Evidence& evidence, const TrueContact& contact) {
   return false;
 }
 
+// A level that tells only what is expected need not announce the others; and with hysteresis the
+// service may learn late that a pair has been far enough apart to be told again.
+bool MayComeUnannounced(const Evidence& evidence, const TrueContact& contact) {
+  const v1::Level* level = evidence.level();
+  return level != nullptr && (level->basis() == v1::Level::EXPECTED || contact.long_visit > 1);
+}
+
 bool AnnouncedInTime(const Evidence& evidence, const TrueContact& contact,
                      const EventHistory& history) {
-  if (Reported(evidence, contact)) return true;
+  if (MayComeUnannounced(evidence, contact) || Reported(evidence, contact)) return true;
   if (contact.from_start || history.last().began_before()) return true;
   const std::int64_t transit = evidence.facts().transit_ns;
   const auto begin = static_cast<std::int64_t>(contact.begin_ns);
@@ -138,9 +149,19 @@ bool AnnouncedInTime(const Evidence& evidence, const TrueContact& contact,
   return InGrantedTime(evidence, contact, history);
 }
 
+// Whether hysteresis may hold it back: the pair crossed the level before in the same visit.
+bool MayBeHeldBack(const Evidence& evidence, const TrueContact& contact) {
+  if (evidence.level() == nullptr || !(evidence.level()->hysteresis_m() > 0)) return false;
+  const auto& others = evidence.ContactsOf(contact.a);
+  return std::any_of(others.begin(), others.end(), [&](const TrueContact* other) {
+    return other->b == contact.b && other->a == contact.a &&
+           other->long_visit == contact.long_visit && other->begin_ns < contact.begin_ns;
+  });
+}
+
 bool Required(const Evidence& evidence, const TrueContact& contact) {
   return contact.certain && contact.begin_ns <= evidence.judged_until_ns() &&
-         !TooShortToDemand(contact);
+         !TooShortToDemand(contact) && !MayBeHeldBack(evidence, contact);
 }
 
 // An event may end with any of the contacts that begin within its begin bracket: it does not say
@@ -212,7 +233,8 @@ void CheckConfirmed(const Evidence& evidence, const EventHistory& history, Viola
     if (!IsConfirmed(event) || event.begin().latest_ns() > logged) continue;
     if (IsTrue(evidence, history, event)) continue;
     violations->push_back(evidence.PairName(history.a, history.b) + ": confirmed with begin " +
-                          Bracket(evidence, event.begin()) + ", but no true contact begins there");
+                          Bracket(evidence, event.begin()) + ", but no true " + Word(evidence) +
+                          " begins there");
     return;
   }
 }

@@ -5,6 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "client/checker/level_visits.h"
+#include "client/checker/who_meets.h"
+
 namespace collision::checker {
 namespace {
 
@@ -26,6 +29,19 @@ std::int64_t JudgedUntil(const std::vector<AgentMotion>& motions, std::int64_t t
   std::int64_t until = std::numeric_limits<std::int64_t>::max();
   for (const auto& [simulator, end_ns] : end) until = std::min(until, end_ns - period[simulator]);
   return motions.empty() ? 0 : until - transit_ns;
+}
+
+// A pair with hysteresis has certainly been farther apart for the service if it was so for longer
+// than three times its temporal resolution, by default of 1/60 s.
+long double ApartMin(const v1::Config& config) {
+  const double resolution = config.has_temporal_resolution_s() ? config.temporal_resolution_s() : 0;
+  return 3e9L * (resolution > 0 ? resolution : 1.0L / 60);
+}
+
+// The agents, each grown by half of a margin.
+std::vector<AgentMotion> Grown(std::vector<AgentMotion> motions, double margin_m) {
+  for (AgentMotion& motion : motions) motion.margin_m += margin_m / 2;
+  return motions;
 }
 
 bool IsFinal(v1::EventStatus status) {
@@ -50,9 +66,36 @@ Evidence::Evidence(std::vector<AgentMotion> motions, const Observations& observa
     : motions_(std::move(motions)),
       observations_(observations),
       facts_(facts),
-      contacts_(TrueContacts(motions_)),
-      by_agent_(motions_.size()),
       judged_until_ns_(JudgedUntil(motions_, facts.transit_ns)) {
+  contacts_ = TrueContacts(motions_, [this](const AgentMotion& a, const AgentMotion& b) {
+    return CanMeet(facts_.config, a, b);
+  });
+  FindEvents();
+  for (const v1::Level& level : facts.config.levels()) {
+    levels_.push_back(Evidence(motions_, observations, facts, level));
+  }
+}
+
+Evidence::Evidence(std::vector<AgentMotion> motions, const Observations& observations,
+                   const RunFacts& facts, const v1::Level& level)
+    : motions_(Grown(std::move(motions), level.margin_m())),
+      observations_(observations),
+      facts_(facts),
+      level_(level),
+      judged_until_ns_(JudgedUntil(motions_, facts.transit_ns)) {
+  const MayMeet may_meet = [this](const AgentMotion& a, const AgentMotion& b) {
+    return CanMeet(facts_.config, a, b) && Watches(*level_, a, b);
+  };
+  contacts_ = TrueContacts(motions_, may_meet);
+  if (level.hysteresis_m() > 0) {
+    NumberVisits(TrueContacts(Grown(motions_, level.hysteresis_m()), may_meet),
+                 ApartMin(facts.config), &contacts_);
+  }
+  FindEvents();
+}
+
+void Evidence::FindEvents() {
+  by_agent_.resize(motions_.size());
   for (const TrueContact& contact : contacts_) {
     by_agent_[contact.a].push_back(&contact);
     by_agent_[contact.b].push_back(&contact);
@@ -61,12 +104,13 @@ Evidence::Evidence(std::vector<AgentMotion> motions, const Observations& observa
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     by_name[{motions_[i].simulator, motions_[i].agent}] = i;
   }
-  for (const v1::AgentName& name : observations.names) {
+  for (const v1::AgentName& name : observations_.names) {
     const auto found = by_name.find({name.simulator(), name.agent()});
     if (found != by_name.end()) ids_[Key(name.id())] = found->second;
   }
-  for (const v1::CollisionEvent& event : observations.events) {
-    if (event.level().empty()) Sort(event);
+  const std::string about = level_ ? level_->name() : "";
+  for (const v1::CollisionEvent& event : observations_.events) {
+    if (event.level() == about) Sort(event);
   }
 }
 
@@ -146,7 +190,8 @@ bool Evidence::MayHaveLeft(const TrueContact& contact, long double at_ns) const 
 }
 
 std::string Evidence::PairName(std::size_t a, std::size_t b) const {
-  return motions_[a].agent + " × " + motions_[b].agent;
+  const std::string pair = motions_[a].agent + " × " + motions_[b].agent;
+  return level_ ? pair + ", level " + level_->name() : pair;
 }
 
 std::string Evidence::Time(long double instant_ns) const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "client/checker/motion/true_contacts.h"
+#include "idl/config.pb.h"
 #include "idl/messages.pb.h"
 #include "idl/scene.pb.h"
 
@@ -34,6 +35,8 @@ struct RunFacts {
   std::int64_t leaving_ns = 0;
   /// In real time: the longest delay of a sample. Changes this recent excuse a promise.
   std::int64_t transit_ns = 0;
+  /// The service's, as far as it differs from the defaults: its levels, classes and excluded pairs.
+  v1::Config config = {};
 };
 
 /// When something was published. Several steps of the service may have the same time; the stamps
@@ -48,7 +51,7 @@ struct Moment {
 /// Whether an event says that its contact has taken place or certainly will.
 bool IsConfirmed(const v1::CollisionEvent& event);
 
-/// All revisions of one contact as published; of none of a level.
+/// All revisions of one contact, or of one crossing of a level, as published.
 struct EventHistory {
   std::size_t a = 0;  ///< Indices of the motions, a < b.
   std::size_t b = 0;
@@ -78,6 +81,8 @@ struct AgentKey {
   };
 };
 
+/// About contacts; and of each level of the configuration likewise about its crossings, which are
+/// contacts of agents that are grown by half of its margin.
 class Evidence {
  public:
   Evidence(std::vector<AgentMotion> motions, const Observations& observations,
@@ -88,6 +93,12 @@ class Evidence {
   const std::vector<EventHistory>& histories() const { return histories_; }
   const Observations& observations() const { return observations_; }
   const RunFacts& facts() const { return facts_; }
+
+  /// The evidence about each level, in the configuration's order.
+  const std::vector<Evidence>& levels() const { return levels_; }
+
+  /// What this is about; nullptr: contacts.
+  const v1::Level* level() const { return level_ ? &*level_ : nullptr; }
 
   /// Contacts of one agent, in order of begin.
   const std::vector<const TrueContact*>& ContactsOf(std::size_t motion) const {
@@ -100,7 +111,7 @@ class Evidence {
   /// The motion of an agent; nullopt if no simulator logged it.
   std::optional<std::size_t> MotionOf(const v1::AgentId& id) const;
 
-  /// Events of contact about agents that no simulator logged.
+  /// Events about agents that no simulator logged.
   const std::vector<v1::CollisionEvent>& strange_events() const { return strange_events_; }
 
   /// The service may not have decided contacts that begin later: the earliest end of the logs, less
@@ -125,18 +136,24 @@ class Evidence {
   /// Number of true contacts that are not grazes.
   std::size_t contacts_certain() const;
 
-  /// "9 × 11"
+  /// "9 × 11", or "9 × 11, level near".
   std::string PairName(std::size_t a, std::size_t b) const;
 
   /// An instant as seconds since the run's start.
   std::string Time(long double instant_ns) const;
 
  private:
+  Evidence(std::vector<AgentMotion> motions, const Observations& observations,
+           const RunFacts& facts, const v1::Level& level);
+
+  void FindEvents();
   void Sort(const v1::CollisionEvent& event);
 
   std::vector<AgentMotion> motions_;
   const Observations& observations_;
   RunFacts facts_;
+  std::optional<v1::Level> level_;
+  std::vector<Evidence> levels_;
   std::vector<TrueContact> contacts_;
   std::vector<std::vector<const TrueContact*>> by_agent_;
   std::vector<EventHistory> histories_;

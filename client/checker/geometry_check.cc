@@ -55,7 +55,7 @@ class Claim {
     const double lower = proximity_.separation_m().lower();
     const double upper = proximity_.separation_m().upper();
     const double distance =
-        balls_ ? Length(pose.p_AB) - a_.radius_m - b_.radius_m : DistanceOf(a_, b_, pose);
+        balls_ ? Length(pose.p_AB) - a_.reach() - b_.reach() : DistanceOf(a_, b_, pose);
     const double most = balls_ ? upper : std::max(0.0, upper);
     if (!(lower - tolerance <= distance && distance <= most + tolerance))
       return Format("its separation is [%.9g, %.9g] m, but the true one %.9g m", lower, upper,
@@ -143,7 +143,7 @@ class Approach {
         fastest_ =
             std::max(fastest_, static_cast<double>(motion.SpeedMax(0, 0, a_.reach(), b_.reach())));
         const Pose pose = motion.At(0);
-        least = std::min(least, balls() ? Length(pose.p_AB) - a_.radius_m - b_.radius_m
+        least = std::min(least, balls() ? Length(pose.p_AB) - a_.reach() - b_.reach()
                                         : DistanceOf(a_, b_, pose));
       }
     }

@@ -67,7 +67,7 @@ class LogReader {
   std::vector<AgentMotion> Read() {
     std::string line;
     if (!NextLine(&line) || !IsFormat(line))
-      Fail("the first line is none of \"motion-log 1\" to \"motion-log 4\"");
+      Fail("the first line is none of \"motion-log 1\" to \"motion-log 5\"");
     while (NextLine(&line)) ReadRecord(line);
     std::vector<AgentMotion> moved;
     for (AgentMotion& motion : motions_) {
@@ -85,7 +85,7 @@ class LogReader {
 
   static bool IsFormat(const std::string& line) {
     return line == "motion-log 1" || line == "motion-log 2" || line == "motion-log 3" ||
-           line == "motion-log 4";
+           line == "motion-log 4" || line == "motion-log 5";
   }
 
   bool NextLine(std::string* line) {
@@ -122,6 +122,12 @@ class LogReader {
     } else if (kind == "assembly") {
       motion->assembly = fields->Word();
       if (motion->assembly.empty()) Fail("an assembly needs a name");
+    } else if (kind == "class") {
+      motion->class_name = fields->Word();
+      if (motion->class_name.empty()) Fail("a class needs a name");
+    } else if (kind == "margin") {
+      if (!fields->Number(&motion->margin_m) || !(motion->margin_m >= 0))
+        Fail("a margin needs a length, at least 0");
     } else {
       Fail("unknown record \"" + kind + "\"");
     }

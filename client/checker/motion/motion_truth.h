@@ -41,9 +41,11 @@ struct AgentMotion {
   std::shared_ptr<const Mesh> mesh = nullptr;  ///< Null: no triangles.
   std::shared_ptr<const std::vector<Solid>> solids = nullptr;  ///< Null: none. Neither: a ball.
   std::string assembly = {};                                   ///< Empty: of none.
+  double margin_m = 0;          ///< Whatever comes this near counts as touching it.
+  std::string class_name = {};  ///< Empty: it can meet agents of all classes.
 
-  /// Refers to this motion.
-  Body body() const { return {mesh.get(), radius_m, solids.get()}; }
+  /// Grown by the margin. Refers to this motion.
+  Body body() const { return {mesh.get(), radius_m, solids.get(), margin_m}; }
 
   /// Whether the two are of one assembly of one simulator, so that they never meet.
   bool IsOfOneAssemblyWith(const AgentMotion& other) const {
@@ -59,7 +61,7 @@ inline constexpr std::size_t kMeshItemsMax = 20'000'000;  ///< Vertices, and tri
 inline constexpr std::size_t kSolidsMax = 65536;          ///< Of one shape.
 inline constexpr double kRotationAngleMax = 1000;         ///< Within one piece [rad].
 
-/// Reads one motion log of format 1 to 4 (client/checker/README.md). Agents without pieces are left
+/// Reads one motion log of format 1 to 5 (client/checker/README.md). Agents without pieces are left
 /// out. Throws std::runtime_error, "simulator:line: cause", if it is malformed.
 std::vector<AgentMotion> ReadMotionLog(std::istream& text, const std::string& simulator);
 

@@ -32,6 +32,9 @@ struct TrueContact {
   /// Until then the agents' balls overlap without a gap [ns], so the service may be unable to
   /// certify that the contact is over.
   long double balls_until_ns = 0;
+  /// Of a crossing of a level with hysteresis: numbers of times that the pair had been beyond the
+  /// hysteresis before it (level_visits.h).
+  std::size_t visit = 0, long_visit = 0;
 };
 
 }  // namespace collision::checker

@@ -66,7 +66,8 @@ constexpr long double kBallSpare = 1e-9L;
 
 class ContactFinder {
  public:
-  explicit ContactFinder(const std::vector<AgentMotion>& motions) : motions_(motions) {}
+  ContactFinder(const std::vector<AgentMotion>& motions, const MayMeet& may_meet)
+      : motions_(motions), may_meet_(may_meet) {}
 
   std::vector<TrueContact> Find() {
     std::int64_t begin = std::numeric_limits<std::int64_t>::max();
@@ -93,7 +94,7 @@ class ContactFinder {
       if (first == last) continue;
       Slice slice{i, &*first, &*first + (last - first), {}};
       for (const Piece* p = slice.begin; p != slice.end; ++p)
-        Include(*p, motions_[i].radius_m, &slice.box);
+        Include(*p, motions_[i].radius_m + motions_[i].margin_m, &slice.box);
       slices.push_back(slice);
     }
     // Compare only agents whose boxes overlap along x.
@@ -106,7 +107,7 @@ class ContactFinder {
         const Slice& b = slices[j];
         if (b.box.lower[0] > a.box.upper[0]) break;
         if (!Overlap(a.box, b.box)) continue;
-        if (motions_[a.agent].IsOfOneAssemblyWith(motions_[b.agent])) continue;
+        if (!CanMeet(motions_[a.agent], motions_[b.agent])) continue;
         if (a.agent < b.agent) {
           SearchPair(a, b, s0, s1);
         } else {
@@ -114,6 +115,10 @@ class ContactFinder {
         }
       }
     }
+  }
+
+  bool CanMeet(const AgentMotion& a, const AgentMotion& b) const {
+    return !a.IsOfOneAssemblyWith(b) && may_meet_(a, b);
   }
 
   void SearchPair(const Slice& a, const Slice& b, std::int64_t s0, std::int64_t s1) {
@@ -169,13 +174,15 @@ class ContactFinder {
   }
 
   const std::vector<AgentMotion>& motions_;
+  const MayMeet& may_meet_;
   std::map<std::pair<std::size_t, std::size_t>, ContactAssembly> pairs_;
 };
 
 }  // namespace
 
-std::vector<TrueContact> TrueContacts(const std::vector<AgentMotion>& motions) {
-  return ContactFinder(motions).Find();
+std::vector<TrueContact> TrueContacts(const std::vector<AgentMotion>& motions,
+                                      const MayMeet& may_meet) {
+  return ContactFinder(motions, may_meet).Find();
 }
 
 }  // namespace collision::checker

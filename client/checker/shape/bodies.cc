@@ -22,11 +22,12 @@ struct Part {
 // The parts of a body, without an allocation if there is only one: it is requested often.
 class BodyParts {
  public:
-  explicit BodyParts(const Body& body) : one_{{{body.mesh, 0}}} {
-    if (body.IsBall()) one_[0].rounding_m = body.radius_m;
+  explicit BodyParts(const Body& body) : one_{{{body.mesh, body.grown_m}}} {
+    if (body.IsBall()) one_[0].rounding_m = body.reach();
     if (body.solids == nullptr || body.solids->empty()) return;
     if (body.mesh != nullptr) many_.push_back(one_[0]);
-    for (const Solid& solid : *body.solids) many_.push_back({&solid.core, solid.rounding_m});
+    for (const Solid& solid : *body.solids)
+      many_.push_back({&solid.core, solid.rounding_m + body.grown_m});
   }
 
   std::span<const Part> all() const {
@@ -110,11 +111,11 @@ Hint* HintFor(std::size_t parts_of_a, std::size_t parts_of_b, Hint* last, Hint* 
 }  // namespace
 
 double Body::reach() const {
-  if (IsBall()) return radius_m;
+  if (IsBall()) return radius_m + grown_m;
   double reach = mesh != nullptr ? mesh->radius_m() : 0;
-  if (solids == nullptr) return reach;
+  if (solids == nullptr) return reach + grown_m;
   for (const Solid& solid : *solids) reach = std::max(reach, solid.radius_m());
-  return reach;
+  return reach + grown_m;
 }
 
 // A contact of bodies lasts as long as the firmest contact of two parts; none begins before the

@@ -14,6 +14,7 @@ struct Body {
   const Mesh* mesh = nullptr;
   double radius_m = 0;                         ///< Of the ball, without mesh and solids.
   const std::vector<Solid>* solids = nullptr;  ///< Null: none.
+  double grown_m = 0;                          ///< Whatever is this near to it is part of it, too.
 
   bool IsBall() const { return mesh == nullptr && (solids == nullptr || solids->empty()); }
 

@@ -241,7 +241,7 @@ RunResult Runner::Judge(const Measured& measured) {
                            ? scene_.config().clock().grant_ahead_max_s()
                            : kGrantAheadDefault;
   const checker::RunFacts facts{start_ns_, EndTime(), std::llround(ahead * 1e9),
-                                options_.real_time ? kTransit : 0};
+                                options_.real_time ? kTransit : 0, scene_.config()};
   const checker::Evidence evidence(std::move(motions), observer_->observations(), facts);
   checker::Violations violations = checker::Check(evidence, scene_.expectation());
   for (std::string& failure : Failures()) violations.push_back(std::move(failure));

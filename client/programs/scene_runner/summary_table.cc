@@ -93,6 +93,16 @@ void RatioRows(std::string* text, const v1::RunReport& report, bool lock_step) {
   }
 }
 
+void LevelRows(std::string* text, const checker::Evidence& evidence) {
+  for (const checker::Evidence& level : evidence.levels()) {
+    const auto& histories = level.histories();
+    const auto told = std::count_if(histories.begin(), histories.end(),
+                                    [](const auto& history) { return history.confirmed; });
+    Row(text, "  %-30s %zu true crossings, %td told", ("level " + level.level()->name()).c_str(),
+        level.contacts_certain(), told);
+  }
+}
+
 void TrafficRows(std::string* text, const v1::RunReport& report) {
   const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
   if (report.states_sent() == 0) return;
@@ -124,6 +134,7 @@ std::string SummaryTable(const v1::RunReport& report, const checker::Evidence& e
   Row(&text, "  %-30s %llu dismissed, %llu undecided, %llu withdrawn", "",
       count(report.events_dismissed()), count(report.events_undecided()),
       count(report.events_withdrawn()));
+  LevelRows(&text, evidence);
   RatioRows(&text, report, evidence.facts().transit_ns == 0);
   WidthRow(&text, "begin bracket at confirmation", report.begin_width_s());
   WidthRow(&text, "begin bracket, final", QuantilesOf(BeginWidthsFinal(evidence)));

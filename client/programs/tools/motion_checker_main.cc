@@ -1,6 +1,7 @@
 // motion-checker: compares the events of a run with the true contacts of the simulators' motion
 // logs.
 
+#include <google/protobuf/text_format.h>
 #include <google/protobuf/util/json_util.h>
 
 #include <CLI/CLI.hpp>
@@ -24,6 +25,18 @@ std::ifstream Open(const std::string& path) {
   return file;
 }
 
+std::string TextOf(const std::string& path) {
+  std::ifstream file = Open(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+v1::Config ConfigOf(const std::string& path) {
+  v1::Config config;
+  if (!google::protobuf::TextFormat::ParseFromString(TextOf(path), &config))
+    throw std::runtime_error(path + ": not the text of a configuration");
+  return config;
+}
+
 int Run(const std::string& report_path, const std::vector<std::string>& logs,
         const RunFacts& facts) {
   std::vector<AgentMotion> motions;
@@ -34,10 +47,8 @@ int Run(const std::string& report_path, const std::vector<std::string>& logs,
   }
   Observations observations;
   if (!report_path.empty()) {
-    std::ifstream file = Open(report_path);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
     v1::RunReport report;
-    const auto status = google::protobuf::util::JsonStringToMessage(text, &report);
+    const auto status = google::protobuf::util::JsonStringToMessage(TextOf(report_path), &report);
     if (!status.ok()) throw std::runtime_error(report_path + ": " + status.ToString());
     observations.events = {report.events().begin(), report.events().end()};
     observations.names = {report.names().begin(), report.names().end()};
@@ -61,7 +72,9 @@ int Run(const std::string& report_path, const std::vector<std::string>& logs,
     violations.insert(violations.end(), more.begin(), more.end());
   }
   for (const std::string& violation : violations) std::printf("violation: %s\n", violation.c_str());
-  std::printf("%zu events checked: %s\n", evidence.histories().size(),
+  std::size_t events = evidence.histories().size();
+  for (const Evidence& level : evidence.levels()) events += level.histories().size();
+  std::printf("%zu events checked: %s\n", events,
               violations.empty() ? "satisfied" : "NOT satisfied");
   return violations.empty() ? 0 : 1;
 }
@@ -71,7 +84,7 @@ int Run(const std::string& report_path, const std::vector<std::string>& logs,
 
 int main(int argc, char** argv) {
   using namespace collision::checker;
-  std::string report;
+  std::string report, config;
   std::vector<std::string> logs;
   double leaving = 0;
   RunFacts facts;
@@ -80,6 +93,8 @@ int main(int argc, char** argv) {
   app.add_option("logs", logs, "Motion logs, each named after its simulator")->required();
   app.add_option("--report", report,
                  "Report of scene-runner --json; without it the true contacts are listed");
+  app.add_option("--config", config,
+                 "Configuration of the service in that run: its levels are judged, too");
   app.add_option("--leaving", leaving,
                  "An agent may have left this many seconds before its motion ends")
       ->check(CLI::NonNegativeNumber);
@@ -90,6 +105,7 @@ int main(int argc, char** argv) {
   }
   facts.leaving_ns = std::llround(leaving * 1e9);
   try {
+    if (!config.empty()) facts.config = ConfigOf(config);
     return Run(report, logs, facts);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "motion-checker: %s\n", error.what());

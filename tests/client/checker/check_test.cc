@@ -137,27 +137,6 @@ TEST_F(CheckTest, AnnouncementsAreMeasuredByTheFirstRevision) {
   EXPECT_EQ(Announcements(Evidence(motions_, observations_, facts_)).size(), 0u);
 }
 
-// Goal:   crossings of a level are no contacts, and are judged by its margin: at 2 m the two cross
-//         it from 7 s to 13 s. Wrong on either side of either bracket is noticed.
-TEST_F(CheckTest, ALevelIsJudgedByItsMargin) {
-  const auto verdict = [this](const Bracket& begin, const Bracket& end) {
-    Add(1, 14 * kSecond, v1::EVENT_ENDED, begin, end);
-    observations_.events.back().set_level("near");
-    observations_.events.back().set_margin_m(2);
-    const std::string text = Verdict();
-    observations_.events.pop_back();
-    return text;
-  };
-  EXPECT_EQ(verdict({6.999, 7.001}, {12.999, 13.001}), "");
-  EXPECT_EQ(verdict({7, 7}, {13, -1}), "");
-  const std::string early = verdict({6.5, 6.999}, {12.999, 13.001});
-  EXPECT_NE(early.find("level near, at 6.999000000 s: the two are 2.001 m apart"), early.npos)
-      << early;
-  EXPECT_NE(verdict({7.001, 7.5}, {12.999, 13.001}), "");
-  EXPECT_NE(verdict({6.999, 7.001}, {13.001, 13.5}), "");
-  EXPECT_NE(verdict({6.999, 7.001}, {12.5, 12.999}), "");
-}
-
 TEST_F(CheckTest, MissingEventIsNoticed) {
   observations_.events.clear();
   EXPECT_NE(Verdict().find("no event of the pair"), std::string::npos);

@@ -31,7 +31,7 @@ constexpr const char* kTetrahedron =
 
 TEST(MotionLogReading, MalformedLogsAreReportedWithTheirLine) {
   EXPECT_EQ(Error("hello\n"),
-            "sim:1: the first line is none of \"motion-log 1\" to \"motion-log 4\"");
+            "sim:1: the first line is none of \"motion-log 1\" to \"motion-log 5\"");
   EXPECT_EQ(Error("motion-log 1\npiece a 0 1\n"), "sim:2: agent \"a\" has no agent line before");
   EXPECT_EQ(Error("motion-log 1\nagent a 1\npiece a 0 1 0\n"),
             "sim:3: a piece needs twelve finite coefficients");
@@ -155,6 +155,18 @@ TEST(MotionLogReading, ReadsTheOlderFormats) {
   EXPECT_EQ(now[0].pieces[0].turn->q[2], 0.8);
   EXPECT_EQ(now[0].pieces[0].turn->w[2], 3);
   EXPECT_EQ(now[0].pieces[0].turn->b[0], 4);
+}
+
+TEST(MotionLogReading, ReadsClassesAndMargins) {
+  const std::string start = "motion-log 5\nagent a 0.5\n",
+                    piece = "piece a 0 10" + std::string(kZeros);
+  const auto motions = Read(start + "class a cart\nmargin a 0.25\n" + piece);
+  ASSERT_EQ(motions.size(), 1u);
+  EXPECT_EQ(motions[0].class_name, "cart");
+  EXPECT_EQ(motions[0].body().reach(), 0.75);
+  EXPECT_EQ(Error(start + "class a\n"), "sim:3: a class needs a name");
+  EXPECT_EQ(Error(start + "margin a -1\n"), "sim:3: a margin needs a length, at least 0");
+  EXPECT_EQ(Error(start + "margin a\n"), "sim:3: a margin needs a length, at least 0");
 }
 
 // Goal:   the power series solves q' = ½ ω q.

@@ -37,7 +37,7 @@ MotionLog::MotionLog(const std::string& path) : path_(path) {
   if (path_.empty()) return;
   file_.open(path_);
   if (!file_) throw std::runtime_error(path_ + ": cannot be created");
-  file_ << "motion-log 4\n";
+  file_ << "motion-log 5\n";
 }
 
 std::string MotionLog::ShapeName(const Shape& shape) {

@@ -44,7 +44,7 @@ TEST_F(MotionLogTest, WritesEveryRecord) {
   log.Jump("ball", 7);
   log.Close();
   EXPECT_EQ(Lines(),
-            (std::vector<std::string>{"motion-log 4", "agent ball 0.1", "assembly ball balls",
+            (std::vector<std::string>{"motion-log 5", "agent ball 0.1", "assembly ball balls",
                                       "piece ball 5 7 1 2 3 4 0.1 0 0 0 -1 0 0 1e+300",
                                       "turn ball 5 7 0 0 0 1 0.1 0 2 0 -0.5 0", "jump ball 7"}));
 }
