@@ -38,7 +38,7 @@ bool Covers(const Evidence& evidence, const v1::CollisionEvent& event, const Tru
     return BeginsIn(contact, event.end().earliest_ns(), event.end().latest_ns()) &&
            contact.end_ns <= event.end().latest_ns() + contact.end_tolerance_ns;
   }
-  return event.status() == v1::EVENT_POSSIBLE && evidence.HasMesh(contact.a, contact.b) &&
+  return event.status() == v1::EVENT_POSSIBLE && evidence.HasShape(contact.a, contact.b) &&
          event.begin().earliest_ns() <= contact.begin_ns + contact.begin_tolerance_ns &&
          contact.balls_until_ns >= evidence.judged_until_ns();
 }

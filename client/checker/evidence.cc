@@ -20,6 +20,7 @@ std::int64_t JudgedUntil(const std::vector<AgentMotion>& motions, std::int64_t t
   for (const AgentMotion& motion : motions) {
     end.try_emplace(motion.simulator, std::numeric_limits<std::int64_t>::min());
     end[motion.simulator] = std::max(end[motion.simulator], motion.end_ns());
+    if (motion.half_space) continue;  // one piece is its whole motion
     // The last piece may be cut short by the run's end: the one before counts too.
     for (std::size_t i = motion.pieces.size(); i-- > 0 && i + 2 >= motion.pieces.size();) {
       const std::int64_t length = motion.pieces[i].t1_ns - motion.pieces[i].t0_ns;

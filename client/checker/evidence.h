@@ -128,9 +128,9 @@ class Evidence {
   /// that would begin later is withdrawn, and one in progress is ended.
   bool MayHaveLeft(const TrueContact& contact, long double at_ns) const;
 
-  /// Whether one of the two is more than a ball.
-  bool HasMesh(std::size_t a, std::size_t b) const {
-    return motions_[a].mesh != nullptr || motions_[b].mesh != nullptr;
+  /// Whether one of the two is more than a ball or a half-space.
+  bool HasShape(std::size_t a, std::size_t b) const {
+    return motions_[a].body().HasShape() || motions_[b].body().HasShape();
   }
 
   /// Number of true contacts that are not grazes.

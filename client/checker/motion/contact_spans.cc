@@ -82,12 +82,9 @@ class SpanFinder {
   std::vector<Span> spans_;
 };
 
-}  // namespace
-
-std::vector<Span> SpansWithin(const Cubic3& d, long double duration, long double reach) {
-  if (!(duration > 0)) return {};
-  const Sextic powers = SquaredDistance(d, duration, reach);
-  long double scale = reach * reach;
+// The spans of [0, duration] in which a polynomial in powers of t / duration is not positive.
+// `scale`: of what was subtracted in it.
+std::vector<Span> SpansOf(const Sextic& powers, long double duration, long double scale) {
   for (const long double power : powers) scale = std::max(scale, std::fabs(power));
   const long double noise = 64 * std::numeric_limits<long double>::epsilon() * scale;
   SpanFinder finder(noise, kWidthMin / duration);
@@ -96,6 +93,23 @@ std::vector<Span> SpansWithin(const Cubic3& d, long double duration, long double
   for (const Span& span : finder.spans())
     spans.push_back({span.begin * duration, span.end * duration});
   return spans;
+}
+
+}  // namespace
+
+std::vector<Span> SpansWithin(const Cubic3& d, long double duration, long double reach) {
+  if (!(duration > 0)) return {};
+  return SpansOf(SquaredDistance(d, duration, reach), duration, reach * reach);
+}
+
+std::vector<Span> SpansBelow(const std::array<long double, 4>& height, long double duration,
+                             long double most) {
+  if (!(duration > 0)) return {};
+  Sextic powers{};
+  long double power = 1;
+  for (int i = 0; i < 4; ++i, power *= duration) powers[i] = height[i] * power;
+  powers[0] -= most;
+  return SpansOf(powers, duration, std::fabs(most));
 }
 
 }  // namespace collision::checker

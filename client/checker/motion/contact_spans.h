@@ -21,4 +21,8 @@ struct Span {
 /// within rounding of zero count as contact.
 std::vector<Span> SpansWithin(const Cubic3& d, long double duration, long double reach);
 
+/// The spans of [0, duration] in which a cubic, the constant first, is at most `most`. Likewise.
+std::vector<Span> SpansBelow(const std::array<long double, 4>& height, long double duration,
+                             long double most);
+
 }  // namespace collision::checker

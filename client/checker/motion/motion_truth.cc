@@ -6,6 +6,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "client/checker/shape/placement.h"
+
 namespace collision::checker {
 namespace {
 
@@ -98,6 +100,8 @@ class LogReader {
     const std::string kind = fields.Word(), name = fields.Word();
     if (kind == "agent") {
       ReadAgent(&fields, name);
+    } else if (kind == "half-space") {
+      ReadHalfSpace(&fields, name);
     } else if (kind == "mesh") {
       ReadMesh(&fields, name);
     } else if (kind == "solid") {
@@ -139,6 +143,23 @@ class LogReader {
       Fail("an agent needs a radius");
     const std::string shape = fields->Word();
     if (!shape.empty()) TakeShape(shape, &motion);
+    Add(std::move(motion));
+  }
+
+  // All x with n·x <= offset, for an n of any length.
+  void ReadHalfSpace(Fields* fields, const std::string& name) {
+    AgentMotion motion{simulator_, name, 0, {}, {}};
+    std::array<double, 3> n{};
+    double offset = 0;
+    if (!fields->Numbers(&n) || !fields->Number(&offset) || !(LengthOf(n) > 0))
+      Fail("a half-space needs a normal and an offset");
+    const double scale = 1 / LengthOf(n);
+    motion.half_space = HalfSpace{scale * Vector{n[0], n[1], n[2]}, scale * offset};
+    Add(std::move(motion));
+  }
+
+  void Add(AgentMotion motion) {
+    const std::string name = motion.agent;
     if (!index_.emplace(name, motions_.size()).second)
       Fail("agent \"" + name + "\" is there twice");
     motions_.push_back(std::move(motion));
@@ -204,12 +225,29 @@ class LogReader {
     if (!solids) solids = std::make_shared<std::vector<Solid>>();
     if (solids->size() == kSolidsMax)
       Fail("shape \"" + name + "\" has more than " + std::to_string(kSolidsMax) + " solids");
+    const Vector at{p[0], p[1], p[2]};
     try {
-      const auto points = Placed(CorePoints(kind, fields), q, {p[0], p[1], p[2]});
-      solids->push_back({HullOf(points), rounding[0]});
+      if (const auto round = RoundCore::KindOf(kind)) {
+        const RoundCore core(*round, RoundHalf(kind, fields), q, at);
+        solids->push_back({Mesh::OfSegment(at, at), rounding[0], core});
+        return;
+      }
+      solids->push_back({HullOf(Placed(CorePoints(kind, fields), q, at)), rounding[0]});
     } catch (const std::runtime_error& error) {
       Fail("shape \"" + name + "\": " + error.what());
     }
+  }
+
+  static Vector RoundHalf(const std::string& kind, Fields* fields) {
+    std::array<double, 3> half{};
+    if (kind == "ellipsoid") {
+      if (!fields->Numbers(&half)) throw std::runtime_error("an ellipsoid needs its half axes");
+    } else {
+      if (!fields->Number(&half[0]) || !fields->Number(&half[2]))
+        throw std::runtime_error("a " + kind + " needs its radius and half length");
+      half[1] = half[0];
+    }
+    return {half[0], half[1], half[2]};
   }
 
   // The core is their hull.
@@ -247,6 +285,7 @@ class LogReader {
       Fail("the piece goes back in time");
     }
     CheckTurned(*motion);
+    if (motion->half_space && piece.p_WA != Piece().p_WA) Fail("a half-space never moves");
     motion->pieces.push_back(piece);
   }
 
@@ -265,6 +304,7 @@ class LogReader {
     const double norm =
         std::hypot(std::hypot(turn.q[0], turn.q[1]), std::hypot(turn.q[2], turn.q[3]));
     if (!(std::fabs(norm - 1) < 1e-6)) Fail("the turn's quaternion is not of unit length");
+    if (motion->half_space) Fail("a half-space never turns");
     if (motion->pieces.empty() || motion->pieces.back().turn)
       Fail("a turn follows the piece that it belongs to");
     if (t0_ns != motion->pieces.back().t0_ns || t1_ns != motion->pieces.back().t1_ns)

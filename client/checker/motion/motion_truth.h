@@ -44,8 +44,12 @@ struct AgentMotion {
   double margin_m = 0;          ///< Whatever comes this near counts as touching it.
   std::string class_name = {};  ///< Empty: it can meet agents of all classes.
 
+  std::optional<HalfSpace> half_space = std::nullopt;  ///< In place of a ball.
+
   /// Grown by the margin. Refers to this motion.
-  Body body() const { return {mesh.get(), radius_m, solids.get(), margin_m}; }
+  Body body() const {
+    return {mesh.get(), radius_m, solids.get(), margin_m, half_space ? &*half_space : nullptr};
+  }
 
   /// Whether the two are of one assembly of one simulator, so that they never meet.
   bool IsOfOneAssemblyWith(const AgentMotion& other) const {

@@ -93,8 +93,9 @@ class ContactFinder {
           std::partition_point(first, pieces.end(), [&](const Piece& p) { return p.t0_ns < s1; });
       if (first == last) continue;
       Slice slice{i, &*first, &*first + (last - first), {}};
-      for (const Piece* p = slice.begin; p != slice.end; ++p)
-        Include(*p, motions_[i].radius_m + motions_[i].margin_m, &slice.box);
+      const double reach = motions_[i].half_space ? std::numeric_limits<double>::infinity()
+                                                  : motions_[i].radius_m + motions_[i].margin_m;
+      for (const Piece* p = slice.begin; p != slice.end; ++p) Include(*p, reach, &slice.box);
       slices.push_back(slice);
     }
     // Compare only agents whose boxes overlap along x.
@@ -118,7 +119,7 @@ class ContactFinder {
   }
 
   bool CanMeet(const AgentMotion& a, const AgentMotion& b) const {
-    return !a.IsOfOneAssemblyWith(b) && may_meet_(a, b);
+    return !a.IsOfOneAssemblyWith(b) && !(a.half_space && b.half_space) && may_meet_(a, b);
   }
 
   void SearchPair(const Slice& a, const Slice& b, std::int64_t s0, std::int64_t s1) {
@@ -139,13 +140,13 @@ class ContactFinder {
   void SearchPieces(const AgentPiece& a, const AgentPiece& b, std::int64_t from, std::int64_t to) {
     const Body body_a = motions_[a.agent].body();
     const Body body_b = motions_[b.agent].body();
-    const bool balls = body_a.IsBall() && body_b.IsBall();
+    const bool balls = !body_a.HasShape() && !body_b.HasShape();  // or half-spaces
     const PairMotion motion(a.piece, b.piece, from);
     const long double reach = static_cast<long double>(body_a.reach()) + body_b.reach();
     const long double duration = static_cast<long double>(to - from) * 1e-9L;
     const long double spare = balls ? 0 : kBallSpare * (1 + reach);
     const auto instant = [&](long double seconds) { return from + seconds * 1e9L; };
-    for (const Span& span : SpansWithin(motion.difference(), duration, reach + spare)) {
+    for (const Span& span : SpansOfBalls(body_a, body_b, motion, duration, reach + spare)) {
       ContactAssembly& pair = pairs_[{a.agent, b.agent}];
       pair.AddBalls(instant(span.begin), instant(span.end));
       if (balls) {
@@ -155,6 +156,20 @@ class ContactFinder {
       for (const Stretch& s : StretchesOf(body_a, body_b, motion, span.begin, span.end))
         pair.Add(s.kind, s.deep, instant(s.begin), instant(s.end));
     }
+  }
+
+  // A half-space is reached by what comes as near to its plane.
+  static std::vector<Span> SpansOfBalls(const Body& a, const Body& b, const PairMotion& motion,
+                                        long double duration, long double reach) {
+    const Body& flat = a.half_space != nullptr ? a : b;
+    if (flat.half_space == nullptr) return SpansWithin(motion.difference(), duration, reach);
+    const long double sign = a.half_space != nullptr ? 1 : -1;
+    std::array<long double, 4> height{};
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int i = 0; i < 4; ++i)
+        height[i] += sign * flat.half_space->normal[axis] * motion.difference()[axis][i];
+    }
+    return SpansBelow(height, duration, flat.half_space->offset_m + flat.grown_m + reach);
   }
 
   std::vector<TrueContact> Finish() {

@@ -4,30 +4,41 @@
 #include <array>
 #include <span>
 
+#include "client/checker/shape/convex.h"
+
 namespace collision::checker {
 namespace {
 
 // A body is the union of these: all points within `rounding_m` of a core, which is a surface of
-// triangles, with what it encloses if it is closed, or (null) the reference point.
+// triangles, with what it encloses if it is closed, or (null) the reference point, or `round`.
 struct Part {
   const Mesh* core = nullptr;
   double rounding_m = 0;
+  const RoundCore* round = nullptr;
+  bool convex = true;  // the core
 
   Vector centre() const { return core != nullptr ? core->nodes()[0].centre : Vector{}; }
   double reach() const {  // About the centre.
+    if (round != nullptr) return rounding_m + round->reach();
     return rounding_m + (core != nullptr ? Length(core->nodes()[0].half) : 0);
+  }
+  ConvexSet set() const {
+    if (round != nullptr) return round;
+    return core != nullptr ? ConvexSet(core) : ConvexSet(Vector{});
   }
 };
 
 // The parts of a body, without an allocation if there is only one: it is requested often.
 class BodyParts {
  public:
-  explicit BodyParts(const Body& body) : one_{{{body.mesh, body.grown_m}}} {
+  explicit BodyParts(const Body& body)
+      : one_{{{body.mesh, body.grown_m, nullptr, body.mesh == nullptr}}} {
     if (body.IsBall()) one_[0].rounding_m = body.reach();
     if (body.solids == nullptr || body.solids->empty()) return;
     if (body.mesh != nullptr) many_.push_back(one_[0]);
     for (const Solid& solid : *body.solids)
-      many_.push_back({&solid.core, solid.rounding_m + body.grown_m});
+      many_.push_back(
+          {&solid.core, solid.rounding_m + body.grown_m, solid.round ? &*solid.round : nullptr});
   }
 
   std::span<const Part> all() const {
@@ -52,6 +63,11 @@ struct PosedParts {
 // (with `depth`; else 0 where they touch or cross). `outside`: neither lies inside the other.
 double CoreGap(const PosedParts& parts, double limit, bool outside, bool depth) {
   const auto& [a, b, pose, hint] = parts;
+  if (a.round != nullptr && !b.convex)
+    return SurfaceGap(*b.core, *a.round, pose.Inverse(), limit, outside, depth);
+  if (b.round != nullptr && !a.convex)
+    return SurfaceGap(*a.core, *b.round, pose, limit, outside, depth);
+  if (a.round != nullptr || b.round != nullptr) return ConvexGap(a.set(), b.set(), pose, depth);
   if (a.core == nullptr && b.core == nullptr) return Length(pose.p_AB);
   if (a.core == nullptr || b.core == nullptr) {
     const Mesh& mesh = a.core == nullptr ? *b.core : *a.core;
@@ -93,6 +109,11 @@ Extent ExtentOf(const Body& body, const Vector& direction) {
   Extent extent;
   const BodyParts parts(body);
   for (const Part& part : parts.all()) {
+    if (part.round != nullptr) {
+      extent.Include(Dot(direction, part.round->Support(direction)), part.rounding_m);
+      extent.Include(Dot(direction, part.round->Support(-direction)), part.rounding_m);
+      continue;
+    }
     if (part.core == nullptr) extent.Include(0, part.rounding_m);
     if (part.core == nullptr) continue;
     for (const Triangle& t : part.core->triangles()) {
@@ -100,6 +121,32 @@ Extent ExtentOf(const Body& body, const Vector& direction) {
     }
   }
   return extent;
+}
+
+// The least d·x of the points x of a body, for a d of length 1.
+double LeastAlong(const Body& body, const Vector& d) {
+  double least = INFINITY;
+  const BodyParts parts(body);
+  for (const Part& part : parts.all()) {
+    const double of_core = part.round != nullptr  ? Dot(d, part.round->Support(-d))
+                           : part.core != nullptr ? LeastAlong(*part.core, d)
+                                                  : 0;
+    least = std::min(least, of_core - part.rounding_m);
+  }
+  return least;
+}
+
+// The signed distance of a body and a half-space, one of the two: how far the body's lowest point
+// is above the plane.
+double HeightOf(const Body& a, const Body& b, const Pose& pose) {
+  if (a.half_space == nullptr) return HeightOf(b, a, pose.Inverse());
+  const Vector& n = a.half_space->normal;
+  const double lowest = LeastAlong(b, pose.Back(n + pose.p_AB)) + Dot(n, pose.p_AB);
+  return lowest - a.half_space->offset_m - a.grown_m;
+}
+
+bool HasHalfSpace(const Body& a, const Body& b) {
+  return a.half_space != nullptr || b.half_space != nullptr;
 }
 
 // The triangles of the last call are a hint only with one part each.
@@ -111,6 +158,7 @@ Hint* HintFor(std::size_t parts_of_a, std::size_t parts_of_b, Hint* last, Hint* 
 }  // namespace
 
 double Body::reach() const {
+  if (half_space != nullptr) return 0;
   if (IsBall()) return radius_m + grown_m;
   double reach = mesh != nullptr ? mesh->radius_m() : 0;
   if (solids == nullptr) return reach + grown_m;
@@ -122,6 +170,10 @@ double Body::reach() const {
 // nearest two parts could touch.
 Standing StandingOf(const Body& body_a, const Body& body_b, const Pose& pose, Hint* hint,
                     bool outside) {
+  if (HasHalfSpace(body_a, body_b)) {
+    const double height = HeightOf(body_a, body_b, pose);
+    return {height <= kTouching, height <= kTouching ? std::max(0.0, -height) : height};
+  }
   const BodyParts of_a(body_a), of_b(body_b);
   Standing all{false, INFINITY};
   Hint fresh;
@@ -143,6 +195,7 @@ Standing StandingOf(const Body& body_a, const Body& body_b, const Pose& pose, Hi
 }
 
 bool InContact(const Body& body_a, const Body& body_b, const Pose& pose, Hint* hint) {
+  if (HasHalfSpace(body_a, body_b)) return HeightOf(body_a, body_b, pose) <= kTouching;
   const BodyParts of_a(body_a), of_b(body_b);
   Hint fresh;
   for (const Part& a : of_a.all()) {
@@ -180,9 +233,18 @@ double DistanceOf(const Body& a, const Body& b, const Pose& pose) {
 }
 
 double DistanceTo(const Body& body, const Vector& point) {
+  if (body.half_space != nullptr) {
+    const double height = Dot(body.half_space->normal, point) - body.half_space->offset_m;
+    return std::max(0.0, height - body.grown_m);
+  }
   double least = INFINITY;
   const BodyParts parts(body);
   for (const Part& part : parts.all()) {
+    if (part.round != nullptr) {
+      const double gap = ConvexGap(part.round, point, {}, false);
+      least = std::min(least, std::max(0.0, gap - part.rounding_m));
+      continue;
+    }
     double distance = part.core != nullptr ? SurfaceDistance(*part.core, point) : Length(point);
     if (part.core != nullptr && part.core->Contains(point)) distance = 0;
     least = std::min(least, std::max(0.0, distance - part.rounding_m));
@@ -191,6 +253,7 @@ double DistanceTo(const Body& body, const Vector& point) {
 }
 
 double DepthAtMost(const Body& a, const Body& b, const Pose& pose, const Vector& along) {
+  if (HasHalfSpace(a, b)) return -HeightOf(a, b, pose);
   std::vector<Vector> directions = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, pose.p_AB, along};
   for (const Vector& axis : {Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{0, 0, 1}})
     directions.push_back(pose(axis) - pose.p_AB);

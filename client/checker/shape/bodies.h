@@ -8,17 +8,26 @@
 
 namespace collision::checker {
 
-/// A solid ball; or the union of a mesh (a solid if it is closed, else a surface) and convex
-/// solids.
+/// All points x with normal·x <= offset_m, in the world's axes. It never moves.
+struct HalfSpace {
+  Vector normal{0, 0, 1};  ///< Of length 1.
+  double offset_m = 0;
+};
+
+/// A half-space; a solid ball; or the union of a mesh (a solid if it is closed, else a surface) and
+/// convex solids.
 struct Body {
   const Mesh* mesh = nullptr;
   double radius_m = 0;                         ///< Of the ball, without mesh and solids.
   const std::vector<Solid>* solids = nullptr;  ///< Null: none.
   double grown_m = 0;                          ///< Whatever is this near to it is part of it, too.
+  const HalfSpace* half_space = nullptr;       ///< Null: none.
 
-  bool IsBall() const { return mesh == nullptr && (solids == nullptr || solids->empty()); }
+  bool HasShape() const { return mesh != nullptr || (solids != nullptr && !solids->empty()); }
+  bool IsBall() const { return !HasShape() && half_space == nullptr; }
 
-  /// Largest distance of its points from the reference point [m].
+  /// Largest distance of its points from the reference point [m]; of a half-space 0, since that
+  /// never turns.
   double reach() const;
 };
 
@@ -29,8 +38,9 @@ struct Standing {
   double margin = 0;
 };
 
-/// Two bodies are in contact when they share a point: their surfaces do, or a part of one lies
-/// inside the other. `outside`: with the surfaces apart, no part is known to lie inside.
+/// Two bodies, at most one of which is a half-space, are in contact when they share a point: their
+/// surfaces do, or a part of one lies inside the other. `outside`: with the surfaces apart, no part
+/// is known to lie inside.
 Standing StandingOf(const Body& a, const Body& b, const Pose& pose, Hint* hint,
                     bool outside = false);
 

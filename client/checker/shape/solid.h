@@ -1,10 +1,11 @@
-// A convex solid of the checker: a core of triangles and a radius around it.
+// A convex solid of the checker: a core, of triangles or round, and a radius around it.
 #pragma once
 
-#include <array>
+#include <optional>
 #include <vector>
 
 #include "client/checker/shape/mesh.h"
+#include "client/checker/shape/round_core.h"
 
 namespace collision::checker {
 
@@ -16,8 +17,9 @@ inline constexpr std::size_t kHullPointsMax = 64;
 struct Solid {
   Mesh core;
   double rounding_m = 0;
+  std::optional<RoundCore> round = std::nullopt;  ///< In place of `core`, which is its centre then.
 
-  double radius_m() const { return core.radius_m() + rounding_m; }
+  double radius_m() const { return (round ? round->radius_m() : core.radius_m()) + rounding_m; }
 };
 
 /// The convex hull of the points: closed; or a polygon, a segment or a point (triangles without
@@ -28,10 +30,5 @@ Mesh HullOf(const std::vector<Vector>& points);
 
 /// The corners of a box with these half extents about the origin.
 std::vector<Vector> BoxCorners(const Vector& half);
-
-/// The points rotated by q / |q| (w, x, y, z), then moved by p. Throws std::runtime_error for q =
-/// 0.
-std::vector<Vector> Placed(std::vector<Vector> points, const std::array<double, 4>& q,
-                           const Vector& p);
 
 }  // namespace collision::checker

@@ -142,6 +142,44 @@ double SurfaceDistance(const Mesh& mesh, const Vector& point) {
   return best;
 }
 
+std::vector<std::uint32_t> TrianglesNear(const Mesh& mesh, const Vector& point, double reach) {
+  std::vector<std::uint32_t> found, open = {0};
+  const double limit = reach + kBoxSpare;
+  while (!open.empty()) {
+    const Node& node = mesh.nodes()[open.back()];
+    open.pop_back();
+    if (SquaredGap(point - node.centre, node.half, {}) > limit * limit) continue;
+    for (std::uint32_t t = node.first; t < node.first + node.triangles; ++t) found.push_back(t);
+    if (node.triangles == 0) open.insert(open.end(), {node.child, node.child + 1});
+  }
+  return found;
+}
+
+double LeastAlong(const Mesh& mesh, const Vector& d) {
+  double least = INFINITY;
+  std::vector<std::uint32_t> open = {0};
+  const auto bound = [&](std::uint32_t i) {
+    const Node& node = mesh.nodes()[i];
+    const Vector& half = node.half;
+    return Dot(d, node.centre) - std::fabs(d.x) * half.x - std::fabs(d.y) * half.y -
+           std::fabs(d.z) * half.z;
+  };
+  while (!open.empty()) {
+    const std::uint32_t i = open.back();
+    open.pop_back();
+    if (bound(i) > least + kBoxSpare) continue;
+    const Node& node = mesh.nodes()[i];
+    for (std::uint32_t t = node.first; t < node.first + node.triangles; ++t) {
+      for (const Vector& v : mesh.triangles()[t]) least = std::min(least, Dot(d, v));
+    }
+    if (node.triangles > 0) continue;
+    const bool second_lower = bound(node.child + 1) < bound(node.child);
+    open.push_back(second_lower ? node.child : node.child + 1);
+    open.push_back(second_lower ? node.child + 1 : node.child);
+  }
+  return least;
+}
+
 bool Contained(const Mesh& a, const Mesh& b, const Pose& pose) {
   const auto& of_a = a.part_points();
   const auto& of_b = b.part_points();

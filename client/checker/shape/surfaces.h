@@ -1,6 +1,9 @@
 // Two surfaces of triangles in a given position: distance, firmness of crossing, containment.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "client/checker/shape/mesh.h"
 
 namespace collision::checker {
@@ -23,6 +26,12 @@ double BestCrossing(const Mesh& a, const Mesh& b, const Pose& pose);
 
 /// The distance of a point in the mesh's axes to the surface.
 double SurfaceDistance(const Mesh& mesh, const Vector& point);
+
+/// Triangles of which some point may be within `reach` of the point, and all of which one is.
+std::vector<std::uint32_t> TrianglesNear(const Mesh& mesh, const Vector& point, double reach);
+
+/// The least d·x of all points x of the surface.
+double LeastAlong(const Mesh& mesh, const Vector& d);
 
 /// Whether a part of one lies inside the other. Requires that the surfaces are apart, so any point
 /// of a part decides.

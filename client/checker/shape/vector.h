@@ -21,6 +21,7 @@ inline Vector operator-(const Vector& a, const Vector& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 inline Vector operator*(double s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Vector operator-(const Vector& a) { return {-a.x, -a.y, -a.z}; }
 inline double Dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vector Cross(const Vector& a, const Vector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -41,6 +42,13 @@ struct Pose {
 
   Vector operator()(const Vector& p_B) const {
     return Vector{Dot(R_AB[0], p_B), Dot(R_AB[1], p_B), Dot(R_AB[2], p_B)} + p_AB;
+  }
+  /// The pose of A in the frame of B.
+  Pose Inverse() const {
+    Pose inverse;
+    for (int i = 0; i < 3; ++i) inverse.R_AB[i] = {R_AB[0][i], R_AB[1][i], R_AB[2][i]};
+    inverse.p_AB = Back({});
+    return inverse;
   }
   /// A point in the frame of A, in the frame of B.
   Vector Back(const Vector& p_A) const {

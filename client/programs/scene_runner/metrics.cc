@@ -163,7 +163,7 @@ void FillTraffic(const checker::Evidence& evidence, const Measured& measured,
 ShapeFigures FiguresOfShapes(const checker::Evidence& evidence) {
   ShapeFigures figures;
   for (const checker::EventHistory& history : evidence.histories()) {
-    if (!evidence.HasMesh(history.a, history.b)) continue;
+    if (!evidence.HasShape(history.a, history.b)) continue;
     const auto first = std::find_if(history.revisions.begin(), history.revisions.end(), HasClaim);
     if (first != history.revisions.end()) AddClaim(*first, &figures);
     const v1::EventStatus last = history.last().status();

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "client/checker/shape/bodies.h"
+#include "client/checker/shape/placement.h"
 #include "tests/client/checker/solids.h"
 #include "tests/support/random.h"
 

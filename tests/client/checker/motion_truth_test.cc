@@ -72,8 +72,14 @@ TEST(MotionLogReading, MalformedSolidsAreReportedWithTheirLine) {
             "sim:2: a solid needs a rounding, a position and an orientation");
   EXPECT_EQ(Error(start + "solid s ball 1 0 0 0 0 0 0 0\n"),
             "sim:2: shape \"s\": an orientation has no length");
-  EXPECT_EQ(Error(start + "solid s ellipsoid 1" + place + " 1 2 3\n"),
-            "sim:2: shape \"s\": unknown kind of solid \"ellipsoid\"");
+  EXPECT_EQ(Error(start + "solid s torus 1" + place + " 1 2 3\n"),
+            "sim:2: shape \"s\": unknown kind of solid \"torus\"");
+  EXPECT_EQ(Error(start + "solid s ellipsoid 1" + place + " 1 2\n"),
+            "sim:2: shape \"s\": an ellipsoid needs its half axes");
+  EXPECT_EQ(Error(start + "solid s cone 1" + place + " 1\n"),
+            "sim:2: shape \"s\": a cone needs its radius and half length");
+  EXPECT_EQ(Error(start + "solid s cylinder 1" + place + " 1 -1\n"),
+            "sim:2: shape \"s\": a negative length");
   EXPECT_EQ(Error(start + "solid s capsule 1" + place + "\n"),
             "sim:2: shape \"s\": a capsule needs its half length");
   EXPECT_EQ(Error(start + "solid s box 1" + place + " 1 2\n"),
@@ -167,6 +173,31 @@ TEST(MotionLogReading, ReadsClassesAndMargins) {
   EXPECT_EQ(Error(start + "class a\n"), "sim:3: a class needs a name");
   EXPECT_EQ(Error(start + "margin a -1\n"), "sim:3: a margin needs a length, at least 0");
   EXPECT_EQ(Error(start + "margin a\n"), "sim:3: a margin needs a length, at least 0");
+}
+
+TEST(MotionLogReading, ReadsRoundSolidsAndHalfSpaces) {
+  const std::string start = "motion-log 5\n", place = " 1 2 2 1 0 0 0";
+  const auto motions =
+      Read(start + "solid s ellipsoid 0.5" + place + " 1 1 3\nsolid s cone 0 0 0 0 0 1 0 0 1 2\n" +
+           "half-space floor 0 0 2 3\nagent a 10 s\npiece floor 0 10" + kZeros + "piece a 0 10" +
+           kZeros);
+  ASSERT_EQ(motions.size(), 2u);
+  ASSERT_TRUE(motions[0].half_space);
+  EXPECT_EQ(motions[0].half_space->normal, (Vector{0, 0, 1}));
+  EXPECT_EQ(motions[0].half_space->offset_m, 1.5);
+  const auto& solids = *motions[1].solids;
+  ASSERT_EQ(solids.size(), 2u);
+  EXPECT_EQ(solids[0].rounding_m, 0.5);
+  EXPECT_EQ(solids[0].round->Support({0, 0, 9}), (Vector{1, 2, 5}));
+  // Turned by half about x: the apex is below.
+  EXPECT_EQ(solids[1].round->Support({0, 0, -1}), (Vector{0, 0, -2}));
+  EXPECT_EQ(Error(start + "half-space floor 0 0 0 1\n"),
+            "sim:2: a half-space needs a normal and an offset");
+  const std::string floor = start + "half-space floor 0 0 1 1\n";
+  EXPECT_EQ(Error(floor + "piece floor 0 10 1 0 0 0 0 0 0 0 0 0 0 0\n"),
+            "sim:3: a half-space never moves");
+  EXPECT_EQ(Error(floor + "piece floor 0 10" + kZeros + "turn floor 0 10 1 0 0 0 0 0 1 0 0 0\n"),
+            "sim:4: a half-space never turns");
 }
 
 // Goal:   the power series solves q' = ½ ω q.

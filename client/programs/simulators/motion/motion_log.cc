@@ -3,8 +3,6 @@
 #include <charconv>
 #include <stdexcept>
 
-#include "client/programs/shared/exit_code.h"
-
 namespace collision::client {
 namespace {
 
@@ -60,17 +58,15 @@ void MotionLog::WriteMesh(const std::string& name, const Triangles& triangles) {
 }
 
 void MotionLog::WriteSolid(const std::string& name, const Solid& solid) {
-  if (solid.kind == Solid::Kind::kEllipsoid || solid.kind == Solid::Kind::kCylinder ||
-      solid.kind == Solid::Kind::kCone) {
-    throw BadInput(std::string("a motion log cannot hold a solid of the kind ") + Name(solid.kind) +
-                   ": the checker knows balls, capsules, boxes and hulls");
-  }
   file_ << "solid " << name << ' ' << Name(solid.kind);
   Write(solid.rounding_m, &file_);
   Write(solid.position_m, &file_);
   Write(solid.orientation, &file_);
   if (solid.kind == Solid::Kind::kCapsule) Write(solid.half_extents_m[2], &file_);
-  if (solid.kind == Solid::Kind::kBox) Write(solid.half_extents_m, &file_);
+  const bool has_axes = solid.kind == Solid::Kind::kBox || solid.kind == Solid::Kind::kEllipsoid;
+  if (has_axes) Write(solid.half_extents_m, &file_);
+  if (solid.kind == Solid::Kind::kCylinder || solid.kind == Solid::Kind::kCone)
+    Write(std::array{solid.half_extents_m[0], solid.half_extents_m[2]}, &file_);
   if (solid.kind == Solid::Kind::kHull) file_ << ' ' << solid.points_m.size();
   for (const Vector3& point : solid.points_m) Write(point, &file_);
   file_ << '\n';
@@ -83,6 +79,14 @@ void MotionLog::Agent(const std::string& name, double radius_m,
   file_ << "agent " << name;
   Write(radius_m, &file_);
   file_ << suffix << '\n';
+}
+
+void MotionLog::Agent(const std::string& name, const HalfSpace& half_space) {
+  if (path_.empty()) return;
+  file_ << "half-space " << name;
+  Write(half_space.normal, &file_);
+  Write(half_space.offset_m, &file_);
+  file_ << '\n';
 }
 
 void MotionLog::Assembly(const std::string& name, const std::string& assembly) {

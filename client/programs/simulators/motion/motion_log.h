@@ -44,10 +44,12 @@ class MotionLog {
   /// Throws std::runtime_error if the file cannot be created.
   explicit MotionLog(const std::string& path);
 
-  /// Without a shape the agent is a ball. A shape is written before its first agent. Throws
-  /// BadInput (command_line.h) for an ellipsoid, a cylinder or a cone: the checker knows none.
+  /// Without a shape the agent is a ball. A shape is written before its first agent.
   void Agent(const std::string& name, double radius_m,
              const std::shared_ptr<const Shape>& shape = nullptr);
+
+  /// The agent's body is this.
+  void Agent(const std::string& name, const HalfSpace& half_space);
 
   /// The agent never meets others of this assembly; empty: it is of none.
   void Assembly(const std::string& name, const std::string& assembly);

@@ -82,12 +82,16 @@ class Part {
   std::size_t logged_ = 0;
 };
 
-std::vector<Agent> AddHalfSpaces(const PlayerOptions& options, const Pace& pace, World* world) {
+std::string HalfSpaceName(std::size_t index) { return "half-space-" + std::to_string(index + 1); }
+
+std::vector<Agent> AddHalfSpaces(const PlayerOptions& options, const Pace& pace, World* world,
+                                 MotionLog* log) {
   std::vector<Agent> added;
   for (const HalfSpace& half_space : options.half_spaces) {
-    const std::string name = "half-space-" + std::to_string(added.size() + 1);
+    const std::string name = HalfSpaceName(added.size());
     added.push_back(
         world->AddAgent({.name = name, .half_space = half_space}, {.stamp_ns = pace.start_ns()}));
+    log->Agent(name, half_space);
   }
   return added;
 }
@@ -145,7 +149,7 @@ std::vector<std::int64_t> StateInstants(const Trajectory& trajectory, double rat
 
 void Play(const std::vector<PlayedAgent>& agents, const PlayerOptions& options, Pace* pace,
           MotionLog* log) {
-  const std::vector<Agent> half_spaces = AddHalfSpaces(options, *pace, &pace->world());
+  const std::vector<Agent> half_spaces = AddHalfSpaces(options, *pace, &pace->world(), log);
   std::vector<Part> parts;
   std::map<std::int64_t, std::vector<std::size_t>> due;  // agents with a state at an instant
   for (const PlayedAgent& agent : agents) {
@@ -161,7 +165,10 @@ void Play(const std::vector<PlayedAgent>& agents, const PlayerOptions& options, 
     if (!pace->AdvanceTo(stamp)) break;
     for (Part& part : parts) part.Passed(stamp, log);
   }
-  for (Part& part : parts) part.Finish(pace->world().clock_ns(), log);
+  const std::int64_t clock_ns = pace->world().clock_ns();
+  for (Part& part : parts) part.Finish(clock_ns, log);
+  for (std::size_t i = 0; i < half_spaces.size(); ++i)
+    log->Piece(HalfSpaceName(i), {pace->start_ns(), clock_ns, {}});
   pace->Linger();
 }
 

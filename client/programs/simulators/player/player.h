@@ -26,7 +26,7 @@ struct PlayerOptions {
   double rate_hz = 0;  ///< States at this rate; 0: at the rows' times.
   /// Of every agent, which never turns: its axes are the world's. Null: a ball.
   std::shared_ptr<const Shape> shape = nullptr;
-  /// Floors and walls, which are there from the start on. The motion log does not know them.
+  /// Floors and walls, which are there from the start on.
   std::vector<HalfSpace> half_spaces = {};
   bool hypothetical = false;  ///< All agents are plans to be screened.
 };

@@ -233,9 +233,6 @@ void TakeHalfSpaces(Options* options) {
     throw BadInput("--half-space: " + std::to_string(planes.size()) +
                    " numbers, allowed: 4 of each, NX,NY,NZ,OFFSET");
   }
-  if (!planes.empty() && !options->simulator.motion_log.empty()) {
-    throw BadInput("--half-space: beside --motion-log, allowed: one of the two");
-  }
   for (std::size_t i = 0; i < planes.size(); i += 4) {
     const HalfSpace half_space{{planes[i], planes[i + 1], planes[i + 2]}, planes[i + 3]};
     try {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "client/api/shape.h"
-#include "client/programs/shared/command_line.h"
 
 namespace collision::client {
 namespace {
@@ -90,7 +89,10 @@ TEST_F(MotionLogTest, SolidsAreWrittenWithTheirDimensions) {
   MotionLog log(path_);
   log.Agent("a", 0.5, ball);
   log.Agent("b", 9, mixed);
-  EXPECT_THROW(log.Agent("c", 9, Shape::Make({.solids = {Solid::Ellipsoid({1, 2, 3})}})), BadInput);
+  log.Agent("c", 9,
+            Shape::Make({.solids = {Solid::Ellipsoid({1, 2, 3}), Solid::Cylinder(1, 2),
+                                    Solid::Cone(0.5, 1).Rounded(0.25)}}));
+  log.Agent("floor", HalfSpace{{0, 0.6, 0.8}, -2});
   log.Close();
   const auto lines = Lines();
   ASSERT_GE(lines.size(), 8u);
@@ -101,6 +103,11 @@ TEST_F(MotionLogTest, SolidsAreWrittenWithTheirDimensions) {
   EXPECT_EQ(lines[5], "solid shape-2 box 0.25 0 0 0 1 0 0 0 1 2 3");
   EXPECT_EQ(lines[6], "solid shape-2 hull 0 0 0 0 1 0 0 0 2 1 0 0 0 0 2");
   EXPECT_EQ(lines[7], "agent b 9 shape-2");
+  ASSERT_EQ(lines.size(), 13u);
+  EXPECT_EQ(lines[8], "solid shape-3 ellipsoid 0 0 0 0 1 0 0 0 1 2 3");
+  EXPECT_EQ(lines[9], "solid shape-3 cylinder 0 0 0 0 1 0 0 0 1 2");
+  EXPECT_EQ(lines[10], "solid shape-3 cone 0.25 0 0 0 1 0 0 0 0.5 1");
+  EXPECT_EQ(lines[12], "half-space floor 0 0.6 0.8 -2");
 }
 
 TEST_F(MotionLogTest, WithoutAPathNoFileAndABadPathIsReported) {
