@@ -50,6 +50,9 @@ TEST(Scenes, AMillionTrianglesSatisfyTheChecker) {
   ExpectSceneSucceeds(words);
 }
 
+// Cylinders, a cone and balls meet a half-space, with a level and a margin.
+TEST(Scenes, AFloorSatisfiesTheChecker) { ExpectSceneSucceeds({"floor"}); }
+
 /// A number of a report, as --json writes it, those of 64 bits in quotes; -1: it is not there.
 double NumberIn(const std::string& json, const std::string& field) {
   const std::string key = "\"" + field + "\": ";

@@ -94,6 +94,18 @@ void MotionLog::Assembly(const std::string& name, const std::string& assembly) {
   file_ << "assembly " << name << ' ' << assembly << '\n';
 }
 
+void MotionLog::Class(const std::string& name, const std::string& class_name) {
+  if (path_.empty() || class_name.empty()) return;
+  file_ << "class " << name << ' ' << class_name << '\n';
+}
+
+void MotionLog::Margin(const std::string& name, double margin_m) {
+  if (path_.empty() || margin_m == 0) return;
+  file_ << "margin " << name;
+  Write(margin_m, &file_);
+  file_ << '\n';
+}
+
 void MotionLog::Piece(const std::string& name, const MotionPiece& piece) {
   if (path_.empty()) return;
   file_ << "piece " << name << ' ' << piece.t0_ns << ' ' << piece.t1_ns;

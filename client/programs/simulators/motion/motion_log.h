@@ -54,6 +54,12 @@ class MotionLog {
   /// The agent never meets others of this assembly; empty: it is of none.
   void Assembly(const std::string& name, const std::string& assembly);
 
+  /// The agent is of this class of the configuration; empty: of none.
+  void Class(const std::string& name, const std::string& class_name);
+
+  /// Whatever is this near to the agent counts as touching it.
+  void Margin(const std::string& name, double margin_m);
+
   /// Pieces of one agent follow each other in time.
   void Piece(const std::string& name, const MotionPiece& piece);
 

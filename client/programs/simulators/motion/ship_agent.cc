@@ -30,6 +30,7 @@ void ShipAgent::SetState(const RigidState& body, std::int64_t stamp_ns, bool dis
   agent_.emplace(pace_->world().AddAgent(description_, state));  // Checks that it has a radius.
   log_->Agent(description_.name, *description_.radius_m, description_.shape);
   log_->Assembly(description_.name, description_.assembly);
+  log_->Class(description_.name, description_.class_name);
 }
 
 void ShipAgent::Log(const RigidStep& step) {

@@ -26,6 +26,7 @@ AgentDescription Description(const PlayedAgent& agent, const PlayerOptions& opti
   AgentDescription description;
   description.name = agent.name;
   description.radius_m = options.radius_m;
+  description.margin_m = options.margin_m;
   if (agent.known) {
     description.acceleration_max_m_s2 = agent.known->deviation_max_m_s2();
     description.jerk_max_m_s3 = agent.known->jerk_max_m_s3();
@@ -54,6 +55,7 @@ class Part {
     }
     handle_.emplace(world->AddAgent(Description(agent_, options_), state));
     log->Agent(agent_.name, options_.radius_m, options_.shape);
+    log->Margin(agent_.name, options_.margin_m);
   }
 
   // The clock has reached `clock_ns`: logs the motion played, and removes the agent after its last

@@ -19,6 +19,7 @@ enum class KnownUse { kAuto, kTold, kUntold };
 
 struct PlayerOptions {
   double radius_m = 0;
+  double margin_m = 0;                ///< Of every agent but half-spaces.
   double acceleration_max_m_s2 = -1;  ///< >= 0: no state tells its acceleration; < 0: derived.
   KnownUse known_acceleration = KnownUse::kAuto;
   double look_ahead_s = 2;  ///< After so long the bounds of both ways are compared.

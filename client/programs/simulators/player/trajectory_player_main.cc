@@ -194,8 +194,11 @@ const CLI::Option* AddPlayerOptions(CLI::App* app, Options* options) {
   options->player.radius_m = -1;
   CLI::Option* radius =
       app->add_option("--radius", options->player.radius_m,
-                      "Bounding radius of every agent [m]; default: that of --mesh")
+                      "Bounding radius of every agent [m]; default: that of its shape")
           ->check(Finite(kRadiusMax, true));
+  app->add_option("--margin", options->player.margin_m,
+                  "Whatever is this near to an agent counts as touching it [m]")
+      ->check(Finite(kRadiusMax, true));
   app->add_option("--acceleration-max", options->player.acceleration_max_m_s2,
                   "Of every agent [m/s2]; default: derived from the data, per agent")
       ->check(Finite(kAccelerationMax, true));
@@ -256,8 +259,8 @@ int main(int argc, char** argv) {
   AddMeshOptions(&app, &options.mesh);
   AddSimulatorOptions(&app, &options.simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
-  if (radius->empty() && options.mesh.file.empty()) {
-    std::fprintf(stderr, "trajectory-player: --radius is required without --mesh\n");
+  if (radius->empty() && options.mesh.file.empty() && options.mesh.solids.empty()) {
+    std::fprintf(stderr, "trajectory-player: --radius is required without --mesh or --solids\n");
     return kExitUsage;
   }
   if (options.player.known_acceleration == KnownUse::kTold &&

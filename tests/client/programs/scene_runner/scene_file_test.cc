@@ -69,7 +69,7 @@ TEST_F(SceneFileTest, AnUnknownSceneListsTheNames) {
   } catch (const NoSuchScene& error) {
     EXPECT_STREQ(
         error.what(),
-        "no scene \"iridium\"; there are: corridor, drone-arms, iridium-cosmos, keep-out, "
+        "no scene \"iridium\"; there are: corridor, drone-arms, floor, iridium-cosmos, keep-out, "
         "low-orbit, "
         "robots, spaceships, spaceships-100, spaceships-500, swarm, swarm-100, swarm-1000, "
         "terrain, "

@@ -38,12 +38,17 @@ TEST_F(MotionLogTest, WritesEveryRecord) {
   log.Agent("ball", 0.1);
   log.Assembly("ball", "balls");
   log.Assembly("ball", "");
+  log.Class("ball", "round");
+  log.Class("ball", "");
+  log.Margin("ball", 0.25);
+  log.Margin("ball", 0);
   log.Piece("ball", {5, 7, {{{1, 2, 3, 4}, {0.1, 0, 0, 0}, {-1, 0, 0, 1e300}}}});
   log.Turn("ball", {5, 7, {0, 0, 0, 1}, {0.1, 0, 2}, {0, -0.5, 0}});
   log.Jump("ball", 7);
   log.Close();
   EXPECT_EQ(Lines(),
             (std::vector<std::string>{"motion-log 5", "agent ball 0.1", "assembly ball balls",
+                                      "class ball round", "margin ball 0.25",
                                       "piece ball 5 7 1 2 3 4 0.1 0 0 0 -1 0 0 1e+300",
                                       "turn ball 5 7 0 0 0 1 0.1 0 2 0 -0.5 0", "jump ball 7"}));
 }
