@@ -64,9 +64,8 @@ struct PosedParts {
 double CoreGap(const PosedParts& parts, double limit, bool outside, bool depth) {
   const auto& [a, b, pose, hint] = parts;
   if (a.round != nullptr && !b.convex)
-    return SurfaceGap(*b.core, *a.round, pose.Inverse(), limit, outside, depth);
-  if (b.round != nullptr && !a.convex)
-    return SurfaceGap(*a.core, *b.round, pose, limit, outside, depth);
+    return SurfaceGap(*b.core, *a.round, pose.Inverse(), outside, depth);
+  if (b.round != nullptr && !a.convex) return SurfaceGap(*a.core, *b.round, pose, outside, depth);
   if (a.round != nullptr || b.round != nullptr) return ConvexGap(a.set(), b.set(), pose, depth);
   if (a.core == nullptr && b.core == nullptr) return Length(pose.p_AB);
   if (a.core == nullptr || b.core == nullptr) {

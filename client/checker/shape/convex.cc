@@ -155,10 +155,10 @@ double ConvexGap(const ConvexSet& a, const ConvexSet& b, const Pose& pose, bool 
   return distance > kTouching || !depth ? distance : -DepthOf(difference);
 }
 
-double SurfaceGap(const Mesh& mesh, const RoundCore& core, const Pose& pose, double limit,
-                  bool outside, bool depth) {
+double SurfaceGap(const Mesh& mesh, const RoundCore& core, const Pose& pose, bool outside,
+                  bool depth) {
   const Vector centre = pose(core.centre());
-  double best = std::min(limit, SurfaceDistance(mesh, centre));
+  double best = SurfaceDistance(mesh, centre);
   double deepest = 0;
   bool touch = false;
   for (const std::uint32_t i : TrianglesNear(mesh, centre, best + core.reach())) {

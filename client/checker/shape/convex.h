@@ -27,9 +27,9 @@ using ConvexSet = std::variant<Vector, const Mesh*, Triangle, const RoundCore*>;
 double ConvexGap(const ConvexSet& a, const ConvexSet& b, const Pose& pose, bool depth);
 
 /// The same of the surface of a mesh, convex or not, and of a core placed by `pose` in the mesh's
-/// axes; also negative where the mesh is closed and contains the core: minus their distance. A
-/// distance beyond `limit` may be `limit`. `outside`: the core is not inside.
-double SurfaceGap(const Mesh& mesh, const RoundCore& core, const Pose& pose, double limit,
-                  bool outside, bool depth);
+/// axes; also negative where the mesh is closed and contains the core: minus their distance.
+/// `outside`: the core is not inside.
+double SurfaceGap(const Mesh& mesh, const RoundCore& core, const Pose& pose, bool outside,
+                  bool depth);
 
 }  // namespace collision::checker
