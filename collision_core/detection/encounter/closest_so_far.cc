@@ -31,15 +31,8 @@ ClosestApproach Nearest(const ClosestApproach& before, const ClosestApproach& af
   return both;
 }
 
-// The distance of two balls at the end of a segment, from above. Only centres bound that of shapes.
-double UpperAtEnd(const narrow_phase::BodySegment& a, const narrow_phase::BodySegment& b,
-                  double duration) {
-  if (a.ball.bounds.empty() || b.ball.bounds.empty()) return numeric::kInfinity;
-  if (!a.is_ball() || !b.is_ball()) return numeric::kInfinity;
-  return EvaluateBallsAt(a.ball, b.ball, duration).separation.upper;
-}
-
-// How far two balls are apart at the end of a segment, from above.
+// How far two balls are apart at the end of a segment, from above. The distance of shapes takes a
+// search.
 double UpperAtEnd(const narrow_phase::BodyPair& pair, Instant from, Instant to) {
   const auto& [a, b] = pair;
   if (a.ball.bounds.empty() || b.ball.bounds.empty()) return numeric::kInfinity;
@@ -77,9 +70,10 @@ std::uint64_t FollowClosest(const History& a, const History& b, const FollowLimi
     }
     WorkBudget work_on_balls(touching ? kTouchingUnits : kPassingUnits);
     const double beyond = std::min(in_the_end, closest ? closest->distance.upper : in_the_end);
-    const narrow_phase::ClosestApproach found =
-        FindClosestApproach(of_a, of_b, numeric::SecondsBetween(from, at).upper, beyond,
-                            balls ? &work_on_balls : &work_on_shapes);
+    const narrow_phase::ClosestApproach found = FindClosestApproach(
+        of_a, of_b,
+        {.duration = numeric::SecondsBetween(from, at).upper, .beyond = beyond, .continued = true},
+        balls ? &work_on_balls : &work_on_shapes);
     units += work_on_balls.spent();
     const ClosestApproach here{from,
                                at,

@@ -61,7 +61,7 @@ std::optional<Expectation> ExpectationOf(const History& a, const History& b, Ins
   if (contact.status == narrow_phase::ContactStatus::kFree) {
     expected.outcome = ExpectedOutcome::kPass;
     const narrow_phase::ClosestApproach closest =
-        FindClosestApproach(bodies.a, bodies.b, duration, numeric::kInfinity, work);
+        FindClosestApproach(bodies.a, bodies.b, {.duration = duration}, work);
     // Free throughout: no distance is less than 0, whatever the budget left.
     expected.closest = {from,
                         until,

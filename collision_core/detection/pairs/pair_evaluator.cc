@@ -34,6 +34,8 @@ double PairEvaluator::LongestWaitFor(const AgentRecord& agent) const {
 }
 
 Instant PairEvaluator::SettledUntil(const AgentRecord& agent) const {
+  // It never moves: no state to come tells more.
+  if (agent.is_half_space()) return agent.heard_until();
   return std::max(
       agent.stamp(),
       std::min(agent.heard_until(), numeric::AddRoundedDown(clock_.now, -LongestWaitFor(agent))));

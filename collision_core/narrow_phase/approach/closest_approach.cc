@@ -60,15 +60,15 @@ double BallsApart(const BallSegment& a, const BallSegment& b, double from, doubl
 
 class ApproachSearch {
  public:
-  ApproachSearch(const BodySegment& a, const BodySegment& b, double duration, double beyond,
+  ApproachSearch(const BodySegment& a, const BodySegment& b, const ApproachQuery& query,
                  WorkBudget* work)
-      : a_(a), b_(b), duration_(duration), beyond_(beyond), work_(*work) {
+      : a_(a), b_(b), query_(query), work_(*work) {
     if (!a.awaited && !b.awaited && !(a.is_ball() && b.is_ball())) motion_.emplace(a, b, work);
   }
 
   ClosestApproach Run() {
-    Examine(duration_);
-    Add({0, duration_, -numeric::kInfinity});
+    Examine(query_.duration);
+    Add({0, query_.duration, -numeric::kInfinity});
     if (!spans_.empty()) Examine(0);
     while (!spans_.empty() && !work_.exhausted() && !IsNarrow()) Halve(Take());
     while (!work_.exhausted() && NarrowTime()) continue;
@@ -96,24 +96,23 @@ class ApproachSearch {
   }
 
   void Halve(const Span& span) {
-    if (!(span.to - span.from > kShortest * duration_)) return final_.push_back(span);
+    if (!(span.to - span.from > kShortest * query_.duration)) return final_.push_back(span);
     const double middle = span.from + 0.5 * (span.to - span.from);
     Add({span.from, middle, span.lower});
     Add({middle, span.to, span.lower});
   }
 
   // Halves the longer one of the first and the last span in which the two may be nearest. Returns
-  // false if both are short, or if the two are nearest at an end of the segment: the one beyond it
-  // tells more.
+  // false if both are short.
   bool NarrowTime() {
-    if (nearest_at_ <= 0 || nearest_at_ >= duration_) return false;
+    if (query_.continued && (nearest_at_ <= 0 || nearest_at_ >= query_.duration)) return false;
     std::erase_if(spans_, [this](const Span& span) { return span.lower > Limit(); });
     if (spans_.empty() || (shapes() && upper_ <= 0)) return false;
     const auto by_time = [](const Span& x, const Span& y) { return x.from < y.from; };
     const auto [first, last] = std::minmax_element(spans_.begin(), spans_.end(), by_time);
     const auto longer = first->to - first->from > last->to - last->from ? first : last;
     const Span span = *longer;
-    if (!(span.to - span.from > kTimeShare * duration_)) return false;
+    if (!(span.to - span.from > kTimeShare * query_.duration)) return false;
     spans_.erase(longer);
     Halve(span);
     return true;
@@ -129,7 +128,7 @@ class ApproachSearch {
   }
 
   // Nothing beyond it is of interest.
-  double Limit() const { return std::min(upper_, beyond_); }
+  double Limit() const { return std::min(upper_, query_.beyond); }
 
   void Examine(double at) { Examine({at, at, -numeric::kInfinity}); }
 
@@ -166,14 +165,14 @@ class ApproachSearch {
 
   ClosestApproach Result() {
     spans_.insert(spans_.end(), final_.begin(), final_.end());
-    ClosestApproach closest{{duration_, 0}, {skipped_, upper_}};
+    ClosestApproach closest{{query_.duration, 0}, {skipped_, upper_}};
     for (const Span& span : spans_) {
       if (span.lower > Limit()) continue;
       closest.at.lower = std::min(closest.at.lower, span.from);
       closest.at.upper = std::max(closest.at.upper, span.to);
       closest.distance.lower = std::min(closest.distance.lower, span.lower);
     }
-    if (closest.at.lower > closest.at.upper) closest.at = {0, duration_};
+    if (closest.at.lower > closest.at.upper) closest.at = {0, query_.duration};
     // Two bounds that contradict each other: one of them was broken.
     closest.distance.lower = std::min(closest.distance.lower, closest.distance.upper);
     return closest;
@@ -181,7 +180,7 @@ class ApproachSearch {
 
   const BodySegment& a_;
   const BodySegment& b_;
-  const double duration_, beyond_;
+  const ApproachQuery query_;
   WorkBudget& work_;
   std::optional<ShapeMotion> motion_;  // of shapes that are known
   std::vector<Span> spans_;            // a heap: the one that may be nearest first
@@ -194,9 +193,9 @@ class ApproachSearch {
 
 }  // namespace
 
-ClosestApproach FindClosestApproach(const BodySegment& a, const BodySegment& b, double duration,
-                                    double beyond, WorkBudget* work) {
-  return ApproachSearch(a, b, duration, beyond, work).Run();
+ClosestApproach FindClosestApproach(const BodySegment& a, const BodySegment& b,
+                                    const ApproachQuery& query, WorkBudget* work) {
+  return ApproachSearch(a, b, query, work).Run();
 }
 
 }  // namespace collision::narrow_phase

@@ -25,6 +25,16 @@
 
 namespace collision::narrow_phase {
 
+/// What is asked.
+struct ApproachQuery {
+  double duration = 0;  ///< [s], from the base of the segments.
+  /// Times at which they are certainly farther apart [m] are not searched.
+  double beyond = numeric::kInfinity;
+  /// Other segments come before and after: where the two are nearest at an end, those tell more,
+  /// and the time is not narrowed down.
+  bool continued = false;
+};
+
 /// What is certain of the least distance over a segment of time.
 struct ClosestApproach {
   /// They are nearest within it: seconds after the base of the segments.
@@ -34,13 +44,12 @@ struct ClosestApproach {
   numeric::Interval distance{-numeric::kInfinity, numeric::kInfinity};
 };
 
-/// The closest approach of two bodies within [0, duration]. Times at which they are certainly
-/// farther apart than `beyond` [m] are not searched: if that is all of it, distance.lower > beyond,
-/// else `at` contains those at which they may be nearer than that and nearest, narrowed down unless
-/// they are nearest at an end of the segment. Of an awaited shape
-/// only the ball is known: nothing bounds the distance from above. It ends where the distance is
-/// known about as well as the motion allows, or the work is spent.
-ClosestApproach FindClosestApproach(const BodySegment& a, const BodySegment& b, double duration,
-                                    double beyond, WorkBudget* work);
+/// The closest approach of two bodies. If they are farther apart than query.beyond all the time,
+/// distance.lower > query.beyond; else `at` contains the times at which they may be nearer than
+/// that and nearest. Of an awaited shape only the ball is known: nothing bounds the distance from
+/// above. It ends where the distance is known about as well as the motion allows, or the work is
+/// spent.
+ClosestApproach FindClosestApproach(const BodySegment& a, const BodySegment& b,
+                                    const ApproachQuery& query, WorkBudget* work);
 
 }  // namespace collision::narrow_phase

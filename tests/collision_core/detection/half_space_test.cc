@@ -93,6 +93,34 @@ TEST(HalfSpaceAgent, BallsAndBoxesMeetItInNarrowBrackets) {
   }
 }
 
+// A floor sends one state, and no other will tell more of where it is.
+TEST(HalfSpaceAgent, AContactWithItHasEndedAsSoonAsThePartnersStatesTellSo) {
+  for (const bool box : {true, false}) {
+    Room room;
+    room.AddHalfSpace(1, {0, 0, 1}, 0);
+    const Vector3d start{0, 0, 2.98};
+    if (box) {
+      room.AddBox(2, start, {0, 0, -2}, 1);
+    } else {
+      room.Add(2, start, {0, 0, -2});
+    }
+    while (room.now < 3) {
+      const double t = room.now += 1.0 / 16;
+      room.detector.Update(Id(2), State(t, {0, 0, 0.98 + (t - 2) * (t - 2) / 2}, {0, 0, t - 2}),
+                           At(t));
+      for (const std::uint32_t slot : {1, 2}) {
+        room.detector.SetHeardUntil(OwnerOf(Id(slot)), At(t));
+      }
+      room.Step();
+    }
+    const auto ended = room.With(EventStatus::kEnded);
+    ASSERT_EQ(ended.size(), 1u) << box;
+    ExpectBracket(ended[0].begin, 1.8, 0.01);
+    ExpectBracket(ended[0].end, 2.2, 0.01);
+    EXPECT_LE(ended[0].now, At(2.2 + 3.0 / 16)) << box;
+  }
+}
+
 TEST(HalfSpaceAgent, WhatIsExpectedOfItAndHowNearItWasAreTold) {
   Room room;
   room.AddHalfSpace(1, {0, 0, 1}, 0);

@@ -32,25 +32,46 @@ PublishedEvent From(double seconds) {
   return published;
 }
 
-TEST(ClosestSoFar, IsThatOfAllSegmentsTogether) {
+class ClosestOfLines : public testing::TestWithParam<bool> {};
+
+TEST_P(ClosestOfLines, IsThatOfAllSegmentsTogether) {
   for (const double acceleration_max : {0.0, 0.5}) {
     const History a = Moving({0, 0, 0}, {0, 0, 0}, acceleration_max);
     const History b = Moving({-4, 3, 0}, {2, 0, 0}, acceleration_max);
     PublishedEvent published = From(0.5);
     for (double t = 0.75; t <= 4; t += 0.25) {
-      FollowClosest(a, b, {.until = At(t), .shape_units = kPlenty}, &published);
+      const bool approaching = GetParam() && t < 4;
+      FollowClosest(a, b, {At(t), approaching, kPlenty}, &published);
+      const Instant until = At(approaching ? t - 0.25 : t);
+      EXPECT_EQ(published.followed_until, until);
+      if (until == At(0.5)) continue;
       ASSERT_TRUE(published.closest);
       EXPECT_EQ(published.closest->from, At(0.5));
-      EXPECT_EQ(published.closest->until, At(t));
+      EXPECT_EQ(published.closest->until, until);
     }
     EXPECT_LE(published.closest->distance.lower, 1);
     EXPECT_GE(published.closest->distance.upper, 1);
-    // Half-way between two states each is known to within M/8 · (1/4)².
+    // Half-way between two states each is known to within M/8 · (1/4)², of which the search may
+    // leave an eighth.
     EXPECT_LE(published.closest->distance.width(), 1e-5 + 6 * acceleration_max / 128);
     EXPECT_LE(published.closest->at.earliest, At(2));
     EXPECT_GE(published.closest->at.latest, At(2));
     EXPECT_LE(published.closest->at.latest, At(acceleration_max == 0 ? 2.02 : 2.3));
   }
+}
+
+INSTANTIATE_TEST_SUITE_P(AtOnceAndLater, ClosestOfLines, testing::Bool());
+
+// Of two that come nearer all the time each segment is bounded once.
+TEST(ClosestSoFar, WhatComesNearerCostsNextToNothing) {
+  const History a = Moving({0, 0, 0}, {0, 0, 0}, 0.5), b = Moving({-9, 3, 0}, {2, 0, 0}, 0.5);
+  PublishedEvent published = From(0);
+  std::uint64_t units = 0;
+  for (double t = 0.25; t <= 4; t += 0.25) {
+    units += FollowClosest(a, b, {At(t), /*approaching=*/true, kPlenty}, &published);
+  }
+  EXPECT_EQ(published.closest->until, At(3.75));
+  EXPECT_LE(units, 2u * 15);
 }
 
 TEST(ClosestSoFar, WhatComesLaterAndIsFartherCostsNextToNothing) {

@@ -19,7 +19,7 @@ constexpr double kInfinity = numeric::kInfinity;
 ClosestApproach Search(const BodyPair& bodies, std::uint64_t units = kPlenty,
                        double beyond = kInfinity) {
   WorkBudget work(units);
-  return FindClosestApproach(bodies.a, bodies.b, kDuration, beyond, &work);
+  return FindClosestApproach(bodies.a, bodies.b, {.duration = kDuration, .beyond = beyond}, &work);
 }
 
 BodyPair Segments(const Body& a, const Body& b, Result states_at = Result::kAtStart) {
@@ -180,7 +180,8 @@ TEST(ClosestApproach, DoesNotSearchWhatIsFartherThanAsked) {
   const Body a{nullptr, 1}, b{nullptr, 1, {-10, 12, 0}, {10, 0, 0}};
   WorkBudget work(kPlenty);
   const BodyPair bodies = Segments(a, b);
-  const ClosestApproach found = FindClosestApproach(bodies.a, bodies.b, kDuration, 0.5, &work);
+  const ClosestApproach found =
+      FindClosestApproach(bodies.a, bodies.b, {.duration = kDuration, .beyond = 0.5}, &work);
   EXPECT_GT(found.distance.lower, 0.5);
   EXPECT_LT(work.spent(), 20u);
   const ClosestApproach nearer = Search(bodies, kPlenty, 11);
@@ -188,6 +189,23 @@ TEST(ClosestApproach, DoesNotSearchWhatIsFartherThanAsked) {
   EXPECT_GE(nearer.distance.upper, 10);
   EXPECT_LE(nearer.at.lower, 1);
   EXPECT_GE(nearer.at.upper, 1);
+}
+
+// Two that approach each other all the time, 3 m apart in the end.
+TEST(ClosestApproach, AtAnEndTheTimeIsNarrowedOnlyWhereNoSegmentFollows) {
+  const BodyPair bodies = Segments({nullptr, 1}, {nullptr, 1, {25, 0, 0}, {-10, 0, 0}});
+  const auto search = [&](bool continued) {
+    WorkBudget work(kPlenty);
+    const ClosestApproach found = FindClosestApproach(
+        bodies.a, bodies.b, {.duration = kDuration, .continued = continued}, &work);
+    EXPECT_EQ(found.at.upper, kDuration);
+    EXPECT_LE(found.distance.lower, 3);
+    EXPECT_GE(found.distance.upper, 3);
+    EXPECT_LE(found.distance.width(), 1e-5);
+    return std::pair(found.at.width(), work.spent());
+  };
+  EXPECT_LE(search(false).first, kDuration / 128);
+  EXPECT_LE(search(true).second, 4u);
 }
 
 TEST(ClosestApproach, OfAnAwaitedShapeIsOnlyBoundedByItsBall) {
