@@ -143,10 +143,6 @@ void RequireIdentifier(const char* field, const std::string& name) {
   throw std::runtime_error(std::string(field) + ": \"" + name + "\", allowed: " + wire::kNameText);
 }
 
-}  // namespace
-
-namespace {
-
 void CheckHalfSpace(const AgentDescription& description) {
   const HalfSpace& half_space = *description.half_space;
   const auto [x, y, z] = half_space.normal;

@@ -17,11 +17,11 @@ namespace collision::broad_phase {
 /// pairs, and half-spaces (floors, walls). It is the common base of NeighbourIndex and
 /// EarliestSweep, which query the bounds that are held.
 ///
-/// Rules and half-spaces enter a method only here. No declaration has rules, so that only tests set
-/// them. A margin grows an agent's reach where its bound is stored (HornTable, AlphaTFaces), so
-/// that the filters know nothing of pairs; an exclusion is applied to the pairs that the filters
-/// leave (PairRules has both arguments). What declarations say of partners stands in the filters of
-/// the bounds (collision_filter.h).
+/// Rules and half-spaces enter a method only here. No declaration has rules, so only tests set any.
+/// A margin grows an agent's reach where its bound is stored (HornTable, AlphaTFaces), so that the
+/// filters know nothing of pairs; an exclusion is applied to the pairs that the filters leave
+/// (PairRules has both arguments). What declarations say of partners stands in the filters of the
+/// bounds (collision_filter.h).
 ///
 /// A change takes effect at once; structures are brought up to date by the next query. Indices
 /// are small whole numbers that the caller chooses; memory is in proportion to the greatest.

@@ -25,8 +25,7 @@ namespace collision::detection {
 struct HeldAgent {
   AgentId id;
   AgentDeclaration in_force;  ///< Of its newest state.
-  AgentDeclaration
-      declared;  ///< The latest one: what it has narrower holds from the next state on.
+  AgentDeclaration declared;  ///< The latest: what is narrower in it counts from the next state on.
   motion::MotionState state;  ///< The newest.
   Instant heard_until;        ///< Its owner has reported everything about it up to here.
 };

@@ -1,4 +1,4 @@
-// Convex solids: ball, capsule, box, ellipsoid, cylinder, cone, hull of points; and the half-space.
+// Convex solids: ball, capsule, box, ellipsoid, cylinder, cone, hull of points.
 #pragma once
 
 #include <Eigen/Geometry>

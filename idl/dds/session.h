@@ -108,9 +108,8 @@ class DdsSession {
   /// keeps it as long as an agent refers to it. kSimulator only. Flush() sends it.
   void RemoveShape(std::uint64_t simulator_id, std::uint32_t shape, std::uint32_t parts);
 
-  /// What was written about this simulator, clearances, report, breaches and screening, is not
-  /// kept for
-  /// readers that join later. kService only; writing about it again ends that.
+  /// What was written about this simulator, clearances, report, breaches and screening, is not kept
+  /// for readers that join later. kService only; writing about it again ends that.
   void ForgetSimulator(std::uint64_t simulator_id);
 
   /// Everything written leaves now.

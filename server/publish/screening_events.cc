@@ -13,7 +13,7 @@ const detection::AgentId& HypotheticalOf(const detection::CollisionEvent& event)
   return event.lower_side == kHypotheticalSide ? event.lower : event.higher;
 }
 
-/// A contact is told once: not as a forecast that came true, too.
+/// A contact is told once, not a second time as the forecast that came true.
 bool IsCopy(const Telling& telling) { return !telling.contact && IsContact(telling.event.status); }
 
 bool IsOver(v1::EventStatus status) {

@@ -16,10 +16,9 @@
 namespace collision::client {
 
 /// Holds clearances, and with them grants, until the contacts that the service published before
-/// them have come, and in lock-step the forecasts and what it is told of its hypothetical agents: a
-/// simulator that is granted time has heard whom
-/// it has met and may meet. They pass in the order in which they came. One thread; depends on
-/// nothing but the calls.
+/// them have come, and in lock-step the forecasts and the events of its hypothetical agents: a
+/// simulator that is granted time has heard whom it has met and may meet. They pass in the order in
+/// which they came. One thread; depends on nothing but the calls.
 class ClearanceGate {
  public:
   using Time = CurrentService::Time;

@@ -97,9 +97,9 @@ struct KnownMotion {
   std::shared_ptr<const shape::Shape> shape = nullptr;  ///< Null: the ball itself.
 };
 
-/// Both bodies over what follows `from`, seen from a frame that moves along with A's state: nothing
-/// is lost far from the origin, nor at high speed, but what the differences of the states lose.
-/// Makes the segments of two motions from `from` on.
+/// The segments of two motions from `from` on, seen from a frame that moves along with A's state:
+/// nothing is lost far from the origin, nor at high speed, but what the differences of the states
+/// lose.
 BodyPair SegmentsOf(const KnownMotion& a, const KnownMotion& b, Instant from);
 
 /// The instants from `from` to `to`, both included.

@@ -136,7 +136,7 @@ void FindFilters(const WorldView& view, PairReport* report) {
   FindConfigured(view, report);
 }
 
-/// Of two that may be half-spaces, at most one of which is.
+/// Of two agents, at most one of which is a half-space.
 struct Meeting {
   double distance;
   Instant earliest;
