@@ -4,15 +4,12 @@
 #include <cmath>
 
 #include "client/checker/shape/bodies.h"
+#include "tests/client/checker/random_pose.h"
 #include "tests/client/checker/solids.h"
 #include "tests/support/random.h"
 
 namespace collision::checker {
 namespace {
-
-Vector RandomVector(Random* random, double size) {
-  return {random->Uniform(-size, size), random->Uniform(-size, size), random->Uniform(-size, size)};
-}
 
 Triangle RandomTriangle(Random* random, double size) {
   return {RandomVector(random, size), RandomVector(random, size), RandomVector(random, size)};

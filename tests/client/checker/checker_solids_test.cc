@@ -7,15 +7,12 @@
 
 #include "client/checker/shape/bodies.h"
 #include "client/checker/shape/placement.h"
+#include "tests/client/checker/random_pose.h"
 #include "tests/client/checker/solids.h"
 #include "tests/support/random.h"
 
 namespace collision::checker {
 namespace {
-
-Vector RandomVector(Random* random, double size) {
-  return {random->Uniform(-size, size), random->Uniform(-size, size), random->Uniform(-size, size)};
-}
 
 Solid Ball(double radius, const Vector& p = {}) { return {Mesh::OfSegment(p, p), radius}; }
 Solid Capsule(double radius, const Vector& from, const Vector& to) {
@@ -24,18 +21,6 @@ Solid Capsule(double radius, const Vector& from, const Vector& to) {
 Solid Box(const Vector& half, double rounding = 0) { return {HullOf(BoxCorners(half)), rounding}; }
 
 Body Of(const std::vector<Solid>& solids) { return {nullptr, 0, &solids}; }
-
-Pose At(const Vector& p) { return {Pose().R_AB, p}; }
-
-Pose RandomPose(Random* random, double size) {
-  Vector axes[3];
-  axes[0] = RandomVector(random, 1);
-  axes[0] = 1 / Length(axes[0]) * axes[0];
-  axes[1] = Cross(axes[0], RandomVector(random, 1));
-  axes[1] = 1 / Length(axes[1]) * axes[1];
-  axes[2] = Cross(axes[0], axes[1]);
-  return {{axes[0], axes[1], axes[2]}, RandomVector(random, size)};
-}
 
 // Goal:   the faces close, contain every point, and have the right number.
 TEST(Hull, ClosesAroundItsPoints) {

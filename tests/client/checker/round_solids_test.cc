@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "client/checker/shape/bodies.h"
+#include "tests/client/checker/random_pose.h"
 #include "tests/client/checker/solids.h"
 #include "tests/support/random.h"
 
@@ -34,18 +35,6 @@ Solid Cone(double r, double h, const Quaternion& q = kUpright, const Vector& p =
 
 /// About y by `angle`: z turns towards x.
 Quaternion Tilt(double angle) { return {std::cos(angle / 2), 0, std::sin(angle / 2), 0}; }
-
-Pose At(const Vector& p) { return {Pose().R_AB, p}; }
-
-Pose RandomPose(Random* random, double size) {
-  const auto vector = [&](double s) {
-    return Vector{random->Uniform(-s, s), random->Uniform(-s, s), random->Uniform(-s, s)};
-  };
-  Vector x = vector(1), y = Cross(x, vector(1));
-  x = 1 / Length(x) * x;
-  y = 1 / Length(y) * y;
-  return {{x, y, Cross(x, y)}, vector(size)};
-}
 
 Standing Between(const Solid& a, const Solid& b, const Pose& pose) {
   const std::vector<Solid> of_a = {a}, of_b = {b};

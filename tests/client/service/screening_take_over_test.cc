@@ -272,6 +272,16 @@ class Scene {
   int step_ = 0;
 };
 
+/// Of each plan its whole story was heard: its end once, and last.
+void ExpectEachEndOnce(const Scene& scene) {
+  for (const char* plan : {"over", "ends", "begins", "stands"}) {
+    EXPECT_GE(scene.Heard(plan, EventStatus::kPossible), 1u) << plan;
+    EXPECT_GE(scene.Heard(plan, EventStatus::kConfirmed), 1u) << plan;
+    EXPECT_EQ(scene.Heard(plan, EventStatus::kEnded), 1u) << plan;
+    EXPECT_EQ(scene.Heard(plan).back().status, EventStatus::kEnded) << plan;
+  }
+}
+
 // Goal:   each outcome once, whichever of the two services tells it.
 TEST(ScreeningTakeOver, EachOutcomeIsToldOnce) {
   Scene scene;
@@ -283,12 +293,7 @@ TEST(ScreeningTakeOver, EachOutcomeIsToldOnce) {
   scene.FlyTo(4.25);
   scene.Remove("gone");
   scene.FlyTo(9);
-  for (const char* plan : {"over", "ends", "begins", "stands"}) {
-    EXPECT_GE(scene.Heard(plan, EventStatus::kPossible), 1u) << plan;
-    EXPECT_GE(scene.Heard(plan, EventStatus::kConfirmed), 1u) << plan;
-    EXPECT_EQ(scene.Heard(plan, EventStatus::kEnded), 1u) << plan;
-    EXPECT_EQ(scene.Heard(plan).back().status, EventStatus::kEnded) << plan;
-  }
+  ExpectEachEndOnce(scene);
   EXPECT_GE(scene.Heard("gone", EventStatus::kPossible), 1u);
   EXPECT_EQ(scene.Heard("gone", EventStatus::kWithdrawn), 1u);
   EXPECT_EQ(scene.Heard("gone").back().status, EventStatus::kWithdrawn);
@@ -306,12 +311,7 @@ TEST(ScreeningTakeOver, InLockStepEachOutcomeIsToldOnce) {
   scene.FlyTo(4.25);
   scene.Remove("gone");
   scene.FlyTo(14);
-  for (const char* plan : {"over", "ends", "begins", "stands"}) {
-    EXPECT_GE(scene.Heard(plan, EventStatus::kPossible), 1u) << plan;
-    EXPECT_GE(scene.Heard(plan, EventStatus::kConfirmed), 1u) << plan;
-    EXPECT_EQ(scene.Heard(plan, EventStatus::kEnded), 1u) << plan;
-    EXPECT_EQ(scene.Heard(plan).back().status, EventStatus::kEnded) << plan;
-  }
+  ExpectEachEndOnce(scene);
   EXPECT_EQ(scene.Heard("gone").back().status, EventStatus::kWithdrawn);
 }
 
