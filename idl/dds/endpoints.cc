@@ -132,23 +132,24 @@ class Builder {
 Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
                         dds_duration_t lease, const dds_listener_t* listener, Inbox* inbox) {
   Builder builder(participant, lease);
-  const auto& [of_simulators, of_service, earliest, screening, of_other_services, events_too,
-               as_simulator, as_service, of_operators, as_operator, of_watchers, as_watcher] =
-      partitions;
-  if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener, inbox);
-  if (of_service) {
+  const Partitions& p = partitions;
+  if (p.read_of_simulators)
+    builder.Read(Source::kSimulators, *p.read_of_simulators, listener, inbox);
+  if (p.read_of_service) {
     std::vector<TopicId> left_out;
-    if (!earliest) left_out.push_back(TopicId::kEarliestIntersection);
-    if (!screening) left_out.push_back(TopicId::kScreening);
-    builder.Read(Source::kService, *of_service, listener, nullptr, left_out);
+    if (!p.read_earliest) left_out.push_back(TopicId::kEarliestIntersection);
+    if (!p.read_screening) left_out.push_back(TopicId::kScreening);
+    builder.Read(Source::kService, *p.read_of_service, listener, nullptr, left_out);
   }
-  if (of_other_services) builder.ReadOtherServices(*of_other_services, events_too, listener);
-  if (as_service) builder.Write(Source::kService, *as_service);
-  if (as_simulator) builder.Write(Source::kSimulators, *as_simulator);
-  if (of_operators) builder.Read(Source::kOperators, *of_operators, nullptr, nullptr);
-  if (as_operator) builder.Write(Source::kOperators, *as_operator);
-  if (of_watchers) builder.Read(Source::kWatchers, *of_watchers, nullptr, nullptr);
-  if (as_watcher) builder.Write(Source::kWatchers, *as_watcher);
+  if (p.read_of_other_services) {
+    builder.ReadOtherServices(*p.read_of_other_services, p.read_events_of_other_services, listener);
+  }
+  if (p.write_as_service) builder.Write(Source::kService, *p.write_as_service);
+  if (p.write_as_simulator) builder.Write(Source::kSimulators, *p.write_as_simulator);
+  if (p.read_of_operators) builder.Read(Source::kOperators, *p.read_of_operators, nullptr, nullptr);
+  if (p.write_as_operator) builder.Write(Source::kOperators, *p.write_as_operator);
+  if (p.read_of_watchers) builder.Read(Source::kWatchers, *p.read_of_watchers, nullptr, nullptr);
+  if (p.write_as_watcher) builder.Write(Source::kWatchers, *p.write_as_watcher);
   return builder.endpoints();
 }
 

@@ -94,34 +94,6 @@ double ApartAtLeast(const Part& a, const Part& b, const Pose& pose) {
   return Length(pose(b.centre()) - a.centre()) - a.reach() - b.reach();
 }
 
-struct Extent {
-  double lower = INFINITY;
-  double upper = -INFINITY;
-
-  void Include(double x, double radius = 0) {
-    lower = std::min(lower, x - radius);
-    upper = std::max(upper, x + radius);
-  }
-};
-
-Extent ExtentOf(const Body& body, const Vector& direction) {
-  Extent extent;
-  const BodyParts parts(body);
-  for (const Part& part : parts.all()) {
-    if (part.round != nullptr) {
-      extent.Include(Dot(direction, part.round->Support(direction)), part.rounding_m);
-      extent.Include(Dot(direction, part.round->Support(-direction)), part.rounding_m);
-      continue;
-    }
-    if (part.core == nullptr) extent.Include(0, part.rounding_m);
-    if (part.core == nullptr) continue;
-    for (const Triangle& t : part.core->triangles()) {
-      for (const Vector& v : t) extent.Include(Dot(direction, v), part.rounding_m);
-    }
-  }
-  return extent;
-}
-
 // The least d·x of the points x of a body, for a d of length 1.
 double LeastAlong(const Body& body, const Vector& d) {
   double least = INFINITY;
@@ -261,10 +233,10 @@ double DepthAtMost(const Body& a, const Body& b, const Pose& pose, const Vector&
     const double length = Length(direction);
     if (!(length > 0) || !std::isfinite(length)) continue;
     const Vector n = 1 / length * direction;
-    const Extent of_a = ExtentOf(a, n);
-    const Extent of_b = ExtentOf(b, pose.Back(n + pose.p_AB));
+    const Vector of_b = pose.Back(n + pose.p_AB);  // the same direction in the frame of B
     const double shift = Dot(n, pose.p_AB);
-    least = std::min({least, of_a.upper - of_b.lower - shift, of_b.upper + shift - of_a.lower});
+    least = std::min({least, -LeastAlong(a, -n) - LeastAlong(b, of_b) - shift,
+                      -LeastAlong(b, -of_b) + shift - LeastAlong(a, n)});
   }
   return least;
 }
