@@ -1,7 +1,7 @@
 #include "collision_core/narrow_phase/pose/body_segment.h"
 
 #include <algorithm>
-#include <optional>
+#include <utility>
 
 namespace collision::narrow_phase {
 namespace {
@@ -34,8 +34,7 @@ RestingBall Smallest(const BallSegment& ball, double duration) {
 }
 
 void Replace(const BodySegment& other, double duration, BodySegment* body) {
-  const std::shared_ptr<const shape::FixedHalfSpace> half_space = std::move(body->half_space);
-  body->half_space = nullptr;
+  const auto half_space = std::exchange(body->half_space, nullptr);
   const bool known = !body->ball.bounds.empty();
   body->ball.bounds.clear();
   body->awaited = true;
