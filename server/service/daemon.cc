@@ -81,7 +81,7 @@ class Daemon::Implementation {
 
   const std::string& state_failure() const { return journal_.failure(); }
   const ServiceClaim& claim() const { return claim_; }
-  const Publisher& publisher() const { return publisher_; }
+  const Publisher& said() const { return publisher_; }
 
  private:
   /// The step after its batch was received. False: the service is to end.
@@ -442,10 +442,8 @@ void Daemon::Stop() { implementation_->Stop(); }
 
 const ServiceClaim& Daemon::claim() const { return implementation_->claim(); }
 
-const EventLog& Daemon::event_log() const { return implementation_->publisher().event_log(); }
+const EventLog& Daemon::event_log() const { return implementation_->said().event_log(); }
 
-const EventLog& Daemon::screening_log() const {
-  return implementation_->publisher().screening_log();
-}
+const EventLog& Daemon::screening_log() const { return implementation_->said().screening_log(); }
 
 }  // namespace collision::server

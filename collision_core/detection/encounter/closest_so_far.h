@@ -18,9 +18,9 @@ struct FollowLimits {
 };
 
 /// Continues `published->closest` from `followed_until` to `limits.until`, segment by segment
-/// between the cuts of the two histories, and sets `followed_until`. Where nothing is known, after a
-/// broken bound, it begins anew. Shapes in contact are not searched: the contact's brackets say when
-/// they are nearest. Returns the work units that it took.
+/// between the cuts of the two histories, and sets `followed_until`. Where nothing is known, after
+/// a broken bound, it begins anew. Shapes in contact are not searched: the contact's brackets say
+/// when they are nearest. Returns the work units that it took.
 std::uint64_t FollowClosest(const History& a, const History& b, const FollowLimits& limits,
                             PublishedEvent* published);
 
