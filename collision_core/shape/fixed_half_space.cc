@@ -48,21 +48,23 @@ std::optional<std::string> RefusalOfHalfSpace(const Vector3d& normal, double off
 
 std::shared_ptr<const FixedHalfSpace> FixedHalfSpace::Build(const Vector3d& normal, double offset) {
   CORE_CHECK(!RefusalOfHalfSpace(normal, offset), "the half-space is within its ranges");
-  return std::shared_ptr<const FixedHalfSpace>(new FixedHalfSpace(normal, offset));
+  return std::shared_ptr<const FixedHalfSpace>(new FixedHalfSpace(normal, offset, nullptr));
 }
 
-FixedHalfSpace::FixedHalfSpace(const Vector3d& normal, double offset)
-    : normal_(normal), offset_(offset) {
+std::shared_ptr<const FixedHalfSpace> FixedHalfSpace::WithBlocks() const {
+  auto blocks = std::make_shared<Blocks>();
   double half_width = kWidthMin;
   for (int k = 0; k < kBlocks; ++k, half_width *= kWidthFactor) {
-    blocks_.push_back(BlockOf(half_width));
+    blocks->push_back(BlockOf(half_width));
   }
+  return std::shared_ptr<const FixedHalfSpace>(
+      new FixedHalfSpace(normal_, offset_, std::move(blocks)));
 }
 
 std::shared_ptr<const FixedHalfSpace> FixedHalfSpace::Grown(double more) const {
   const double length = numeric::Norm(numeric::IntervalVector(normal_)).upper;
   const double offset = numeric::AddUp(offset_, numeric::MultiplyUp(length, more));
-  return std::shared_ptr<const FixedHalfSpace>(new FixedHalfSpace(normal_, offset));
+  return std::shared_ptr<const FixedHalfSpace>(new FixedHalfSpace(normal_, offset, blocks_));
 }
 
 /// Of a point above the plane with this offset, in metres.
@@ -95,11 +97,12 @@ FixedHalfSpace::Block FixedHalfSpace::BlockOf(double half_width) const {
 
 std::optional<FixedHalfSpace::StandIn> FixedHalfSpace::Around(const Vector3d& centre,
                                                               double reach) const {
+  CORE_CHECK(blocks_ != nullptr, "a half-space that is looked at has its blocks");
   const Interval height = HeightAbove(offset_, centre);
   const double wanted = kWidthOverReach * (reach + std::max(0.0, -height.lower));
-  const auto block = std::find_if(blocks_.begin(), blocks_.end(),
+  const auto block = std::find_if(blocks_->begin(), blocks_->end(),
                                   [wanted](const Block& one) { return one.half_width >= wanted; });
-  if (block == blocks_.end()) return std::nullopt;
+  if (block == blocks_->end()) return std::nullopt;
   const Vector3d position = centre - height.middle() * normal_.normalized();
   const Interval off = HeightAbove(offset_, position) + block->heights;
   return StandIn{block->shape, position, std::max(off.upper, -off.lower), block->tilt};

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "collision_core/shape/shape.h"
@@ -28,17 +29,20 @@ std::optional<std::string> RefusalOfHalfSpace(const Eigen::Vector3d& normal, dou
 /// large block just below, so such a block stands in for it.
 class FixedHalfSpace {
  public:
-  /// Requires that RefusalOfHalfSpace() is nullopt. Makes the blocks of all sizes, in about 1 ms.
+  /// Without blocks. Requires that RefusalOfHalfSpace() is nullopt.
   static std::shared_ptr<const FixedHalfSpace> Build(const Eigen::Vector3d& normal, double offset);
 
-  /// This half-space and all points within `more` [m] of it; its offset is rounded up. Requires
-  /// `more` >= 0.
+  /// This half-space with the blocks of all sizes, which takes about 1 ms to make them.
+  std::shared_ptr<const FixedHalfSpace> WithBlocks() const;
+
+  /// This half-space and all points within `more` [m] of it; its offset is rounded up. Its
+  /// blocks are the same. Requires `more` >= 0.
   std::shared_ptr<const FixedHalfSpace> Grown(double more) const;
 
   const Eigen::Vector3d& normal() const { return normal_; }
   double offset() const { return offset_; }
 
-  /// The same points; their blocks are then the same too.
+  /// The same points.
   bool IsSameAs(const FixedHalfSpace& other) const {
     return normal_ == other.normal_ && offset_ == other.offset_;
   }
@@ -53,7 +57,7 @@ class FixedHalfSpace {
 
   /// The block for a body within `reach` [m] of `centre`. The body's signed distance to the block,
   /// positive or negative, differs from that to the half-space by at most `error`. nullopt: the
-  /// body is larger, or deeper below the plane, than any block.
+  /// body is larger, or deeper below the plane, than any block. Requires WithBlocks().
   ///
   /// Derivation. Let ρ be the reach, and the centre's depth more where it lies below the plane; the
   /// block has half the width L >= 4 ρ and the depth 2 L. A body's depth is at most ρ. The nearest
@@ -73,13 +77,16 @@ class FixedHalfSpace {
     double tilt;
   };
 
-  FixedHalfSpace(const Eigen::Vector3d& normal, double offset);
+  using Blocks = std::vector<Block>;  // by ascending size
+
+  FixedHalfSpace(const Eigen::Vector3d& normal, double offset, std::shared_ptr<const Blocks> blocks)
+      : normal_(normal), offset_(offset), blocks_(std::move(blocks)) {}
   Block BlockOf(double half_width) const;
   numeric::Interval HeightAbove(double offset, const Eigen::Vector3d& point) const;
 
   Eigen::Vector3d normal_;
   double offset_;
-  std::vector<Block> blocks_;  ///< By ascending size.
+  std::shared_ptr<const Blocks> blocks_;  // null: not made
 };
 
 }  // namespace collision::shape

@@ -49,12 +49,11 @@ Refusal NotDescribed(const detection::AgentId& agent, std::string detail) {
           .detail = std::move(detail)};
 }
 
-Refusal HalfSpaceChanged(const detection::AgentId& agent) {
-  Refusal refusal = NoRoom(agent,
-                           "it cannot change while the agent is there; allowed: to remove the "
-                           "agent and to add another one");
+Refusal Changed(const v1::AgentDescription& wire, std::string field, std::string detail) {
+  Refusal refusal = At(wire);
   refusal.reason = v1::REJECTED_OUT_OF_RANGE;
-  refusal.field = "half_space";
+  refusal.field = std::move(field);
+  refusal.detail = std::move(detail);
   return refusal;
 }
 

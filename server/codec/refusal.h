@@ -35,8 +35,8 @@ Refusal NotDescribed(const detection::AgentId& agent, std::string detail);
 /// Refuses a complete agent for which there is no room.
 Refusal NoRoom(const detection::AgentId& agent, std::string detail);
 
-/// Refuses a description by which a half-space would become another one, or none, or an agent one.
-Refusal HalfSpaceChanged(const detection::AgentId& agent);
+/// Refuses a description that would change what an agent keeps for good.
+Refusal Changed(const v1::AgentDescription& wire, std::string field, std::string detail);
 
 /// Refuses a removal that does not come from the owner.
 Refusal NotItsOwn(const v1::AgentRemoval& wire);

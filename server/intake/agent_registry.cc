@@ -54,14 +54,10 @@ std::optional<Refusal> AgentRegistry::CheckKind(const Simulator& simulator,
     hypothetical = told->hypothetical();
   }
   if (!hypothetical || *hypothetical == wire.hypothetical()) return std::nullopt;
-  Refusal refusal = At(wire);
-  refusal.reason = v1::REJECTED_OUT_OF_RANGE;
-  refusal.field = "hypothetical";
-  refusal.detail = fmt::format(
-      "{}; allowed: {}, as this agent was described first, or an agent of "
-      "another generation",
-      wire.hypothetical(), *hypothetical);
-  return refusal;
+  return Changed(wire, "hypothetical",
+                 fmt::format("{}; allowed: {}, as this agent was described first, or an agent of "
+                             "another generation",
+                             wire.hypothetical(), *hypothetical));
 }
 
 void AgentRegistry::Introduce(Simulator* simulator, const v1::AgentDescription& wire,
@@ -87,7 +83,9 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
   Agent* agent = simulator->agents().Find(wire.slot());
   if (wire.revision() <= agent->revision()) return;
   if (!SameHalfSpace(agent->declaration, declaration)) {
-    return rejections_.Add(HalfSpaceChanged(simulator->IdOf(wire.slot(), wire.generation())));
+    return rejections_.Add(Changed(wire, "half_space",
+                                   "it cannot change while the agent is there; allowed: to remove "
+                                   "the agent and to add another one"));
   }
   if (!world_.RunsInRounds()) KeepFormer(wire, agent);
   agent->names = names_.Complete(wire, &declaration.filter);

@@ -110,6 +110,7 @@ void HornTable::Fill(const AgentBound& agent, double half_margin, HornRow* fille
   row.stamp = state.stamp;
   row.group = agent.filter.group, row.mask = agent.filter.mask;
   row.assembly = agent.filter.assembly;
+  CORE_CHECK(agent.filter.side <= kSideMax, "a side fits in its bits", agent.filter.side);
   row.side = agent.filter.side & kSideMax;
   row.listing = agent.filter.partners != nullptr;
   if (half_margin != 0 || !IsPlain(bound)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collision_core/base/free_list.h"
+#include "collision_core/shape/fixed_half_space.h"
 
 namespace collision::detection {
 
@@ -37,7 +38,10 @@ AgentIndex AgentTable::Admit(const AgentId& id, const AgentDeclaration& declarat
   AgentRecord& record = (*this)[agent];
   record.id = id;
   record.declaration = declaration;
-  if (endless) record.declaration.limits = {};
+  if (endless) {
+    record.declaration.limits = {};
+    record.declaration.half_space = declaration.half_space->WithBlocks();
+  }
   record.reported_until = stamp;
   record.admitted_from = stamp;
   Owner& owner = owners_[OwnerOf(id)];

@@ -60,7 +60,7 @@ BodySegment Body(const Case& c) {
 
 BodySegment HalfSpaceOf(const Case& c) {
   BodySegment half_space;
-  half_space.half_space = shape::FixedHalfSpace::Build(c.normal, c.offset);
+  half_space.half_space = shape::FixedHalfSpace::Build(c.normal, c.offset)->WithBlocks();
   half_space.ball.bounds.push_back(ForwardBall(motion::SpaceTimeBound{}, Instant()));
   return half_space;
 }
@@ -143,7 +143,7 @@ TEST(HalfSpaceStandIn, TheBlockLooksEndlessForAsLongAsTheBodyMoves) {
 
 TEST(HalfSpaceStandIn, GrownItsPlaneLiesHigherByThatMuchAtLeast) {
   const Vector3d normal = Vector3d(1, 2, 3).normalized();
-  const auto grown = shape::FixedHalfSpace::Build(normal, 5)->Grown(0.5);
+  const auto grown = shape::FixedHalfSpace::Build(normal, 5)->WithBlocks()->Grown(0.5);
   EXPECT_GE(grown->offset(), 5.5 * (1 - 1e-15));
   EXPECT_LE(grown->offset(), 5.5 * (1 + 1e-15));
 }
