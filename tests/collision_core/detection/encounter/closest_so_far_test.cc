@@ -84,6 +84,20 @@ TEST(ClosestSoFar, WhatComesLaterAndIsFartherCostsNextToNothing) {
   EXPECT_EQ(published.closest->until, At(3.5));
 }
 
+TEST(ClosestSoFar, WhatClosesAnEventTellsItToTheEnd) {
+  Line line;
+  line.Add(1, {0, 0, 0}, {0, 0, 0});
+  line.Add(2, {-6, 3.5, 0}, {2, 0, 0});
+  line.RunTo(8);
+  const auto dismissed = line.With(EventStatus::kDismissed);
+  ASSERT_EQ(dismissed.size(), 1u);
+  ASSERT_TRUE(dismissed[0].closest);
+  EXPECT_EQ(dismissed[0].closest->until, dismissed[0].now);
+  EXPECT_LE(dismissed[0].closest->distance.lower, 1.5);
+  EXPECT_GE(dismissed[0].closest->distance.upper, 1.5);
+  EXPECT_LE(dismissed[0].closest->distance.width(), 0.01);
+}
+
 TEST(ClosestSoFar, BeginsAnewAfterABrokenBound) {
   const History a = Moving({0, 0, 0}, {0, 0, 0}, 0, 2.25);
   const History b = Moving({-4, 3, 0}, {2, 0, 0}, 0);
