@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "collision_core/narrow_phase/contact/ball_contact.h"
 #include "collision_core/narrow_phase/contact/contact_proximity.h"
 #include "collision_core/narrow_phase/contact/shape_motion.h"
 #include "collision_core/numeric/rounding.h"
@@ -42,27 +41,52 @@ double CentresApart(const numeric::MovingBall& difference, double from, double t
   return std::max(0.0, (along / numeric::Norm(n)).lower);
 }
 
-// The best of all choices of one bound of each: all of them hold throughout.
-double BallsApart(const BallSegment& a, const BallSegment& b, double from, double to) {
-  double lower = -numeric::kInfinity;
-  const numeric::Interval radii = numeric::Interval(a.radius) + b.radius;
-  for (const numeric::MovingBall& ball_a : a.bounds) {
-    for (const numeric::MovingBall& ball_b : b.bounds) {
-      const numeric::MovingBall difference = Difference(ball_a, ball_b, 0);
-      const numeric::Interval u = numeric::Max(difference.u.At(from), difference.u.At(to));
-      const numeric::Interval apart =
-          numeric::Interval(CentresApart(difference, from, to)) - (radii + u);
-      lower = std::max(lower, apart.lower);
+// How far two balls are apart: the best of all choices of one bound of each, which all hold.
+class BallsApart {
+ public:
+  BallsApart(const BallSegment& a, const BallSegment& b)
+      : radii_(numeric::Interval(a.radius) + b.radius) {
+    for (const numeric::MovingBall& ball_a : a.bounds) {
+      for (const numeric::MovingBall& ball_b : b.bounds) {
+        differences_.push_back(Difference(ball_a, ball_b, 0));
+      }
     }
   }
-  return lower;
-}
+
+  numeric::Interval At(double t) const {
+    numeric::Interval apart(-numeric::kInfinity, numeric::kInfinity);
+    for (const numeric::MovingBall& difference : differences_) {
+      const numeric::Interval u = difference.u.At(t);
+      const numeric::Interval distance =
+          numeric::Norm(difference.centre() + difference.PathTo(t)) - radii_;
+      apart = {std::max(apart.lower, (distance - u).lower),
+               std::min(apart.upper, (distance + u).upper)};
+    }
+    return apart;
+  }
+
+  // At least, all the time.
+  double Throughout(double from, double to) const {
+    double lower = -numeric::kInfinity;
+    for (const numeric::MovingBall& difference : differences_) {
+      const numeric::Interval u = numeric::Max(difference.u.At(from), difference.u.At(to));
+      const numeric::Interval apart =
+          numeric::Interval(CentresApart(difference, from, to)) - (radii_ + u);
+      lower = std::max(lower, apart.lower);
+    }
+    return lower;
+  }
+
+ private:
+  const numeric::Interval radii_;
+  std::vector<numeric::MovingBall> differences_;
+};
 
 class ApproachSearch {
  public:
   ApproachSearch(const BodySegment& a, const BodySegment& b, const ApproachQuery& query,
                  WorkBudget* work)
-      : a_(a), b_(b), query_(query), work_(*work) {
+      : a_(a), b_(b), query_(query), work_(*work), balls_(a.ball, b.ball) {
     if (!a.awaited && !b.awaited && !(a.is_ball() && b.is_ball())) motion_.emplace(a, b, work);
   }
 
@@ -87,7 +111,7 @@ class ApproachSearch {
   // Bounds a span and keeps it, if the nearest instant may lie in it.
   void Add(Span span) {
     work_.Spend(kBallSpanUnits);
-    span.lower = std::max(span.lower, BallsApart(a_.ball, b_.ball, span.from, span.to));
+    span.lower = std::max(span.lower, balls_.Throughout(span.from, span.to));
     if (span.lower > Limit()) return Skip(span);
     span.lower = std::max(span.lower, Examine(span));
     if (span.lower > Limit()) return Skip(span);
@@ -135,12 +159,12 @@ class ApproachSearch {
   // Examines the middle of the span. Returns what shapes are apart by throughout the span.
   double Examine(const Span& span) {
     const double at = span.from + 0.5 * (span.to - span.from);
-    const SeparationAt balls = EvaluateBallsAt(a_.ball, b_.ball, at);
+    const numeric::Interval balls = balls_.At(at);
     if (!shapes()) {
-      if (a_.is_ball() && b_.is_ball()) Take(at, balls.separation);
+      if (a_.is_ball() && b_.is_ball()) Take(at, balls);
       return -numeric::kInfinity;
     }
-    if (balls.separation.lower > Limit()) return -numeric::kInfinity;
+    if (balls.lower > Limit()) return -numeric::kInfinity;
     ShapeMotion::PoseQuery query = motion_->QuerySeparation(at, Goal::kNearest);
     motion_->CheckContainment(&query);
     Take(at, ProximityFrom(query, *motion_, a_.ball.radius + b_.ball.radius).separation);
@@ -182,6 +206,7 @@ class ApproachSearch {
   const BodySegment& b_;
   const ApproachQuery query_;
   WorkBudget& work_;
+  const BallsApart balls_;
   std::optional<ShapeMotion> motion_;  // of shapes that are known
   std::vector<Span> spans_;            // a heap: the one that may be nearest first
   std::vector<Span> final_;            // too short to be halved
