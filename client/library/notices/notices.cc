@@ -178,9 +178,12 @@ void Notices::Refuse(const Rejection& rejection, const std::string& agent) {
            rejection.field + ": " + rejection.detail + " (" + rejection.reason + "; told once)");
 }
 
-void Notices::Breach(const client::Breach& breach, const std::string& agent) {
-  if (breaches_.size() == kBreachesToldMax) return;
-  if (!breaches_.emplace(agent, breach.field).second) return;
+void Notices::Breach(const client::Breach& breach, const std::string& agent, Time now) {
+  const std::pair cause(agent, breach.field);
+  const auto told = breaches_.find(cause);
+  const bool is_new = told == breaches_.end();
+  if (is_new ? breaches_.size() == kBreachesToldMax : now - told->second < kNoticeAgain) return;
+  breaches_[cause] = now;
   const auto name = [&agent](const AgentId&) { return agent; };
   Tell(NoticeKind::kBreach, BreachText(breach, name, 0) + "; see client/BOUNDS.md");
 }

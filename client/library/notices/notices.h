@@ -70,8 +70,9 @@ class Notices {
   /// `agent`: the name of the agent that it is about; empty: of none.
   void Refuse(const Rejection& rejection, const std::string& agent);
 
-  /// The service says that this agent broke what it declared: told once of each agent and field.
-  void Breach(const client::Breach& breach, const std::string& agent);
+  /// The service says that this agent broke what it declared: told of each agent and field, and
+  /// again after kNoticeAgain if it goes on.
+  void Breach(const client::Breach& breach, const std::string& agent, Time now);
 
   /// The service says that the simulator's clock is off: told once.
   void SkewedClock(std::int64_t since_ns);
@@ -103,7 +104,8 @@ class Notices {
   Lasting no_service_, wrong_clock_, waiting_, name_taken_, ended_;
   std::optional<std::int64_t> granted_ns_;  ///< When the wait began.
   std::set<std::string> refusals_;
-  std::set<std::pair<std::string, std::string>> breaches_;  ///< Agents, and the fields they broke.
+  /// Agents and the fields they broke, and when that was told.
+  std::map<std::pair<std::string, std::string>, Time> breaches_;
   bool skew_told_ = false;
   std::deque<Notice> notices_;
 };

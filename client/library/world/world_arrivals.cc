@@ -379,7 +379,7 @@ void World::Implementation::Handle(const v1::AgentBreach& breach) {
   if (breach.simulator_id() != simulator_id_ || breach.run() != run_) return;
   if (!IsForThis(breach.incarnation())) return;
   const std::string agent = agents_.NameIn(breach.slot());
-  if (!agent.empty()) notices_.Breach(FromMessage(breach), agent);
+  if (!agent.empty()) notices_.Breach(FromMessage(breach), agent, transport_->Now());
 }
 
 template <typename Callback, typename... Values>

@@ -43,6 +43,7 @@ std::optional<Expectation> ExpectationOf(const History& a, const History& b, Ins
   bodies.b.half_space = of_b.half_space;
   const double duration = numeric::SecondsBetween(from, until).upper;
   ReplaceHalfSpace(duration, &bodies);
+  if (bodies.a.awaited || bodies.b.awaited) return std::nullopt;  // no block is large enough
   const auto bracket = [from](const numeric::Interval& seconds) {
     return TimeBracket{numeric::AddRoundedDown(from, seconds.lower),
                        numeric::AddRoundedUp(from, seconds.upper)};

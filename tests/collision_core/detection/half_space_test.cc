@@ -138,6 +138,24 @@ TEST(HalfSpaceAgent, WhatIsExpectedOfItAndHowNearItWasAreTold) {
   ASSERT_TRUE(dismissed.back().closest.has_value());
 }
 
+// No block is large enough to look endless from there: nothing is expected, nothing dismissed.
+TEST(HalfSpaceAgent, WhatIsTooDeepOrTooLargeForItsBlocksMayMeetIt) {
+  for (const double offset : {3e7, 4e7, 1e13, shape::kHalfSpaceOffsetMax}) {
+    Room room;
+    room.AddHalfSpace(1, {0, 0, 1}, offset);
+    room.Add(2, {0, 0, 0}, {0, 0, 1});
+    room.AddBox(3, {9, 0, 0}, {0, 0, 1}, 1);
+    room.Run(1);
+    EXPECT_FALSE(room.With(EventStatus::kPossible).empty()) << offset;
+    EXPECT_TRUE(room.With(EventStatus::kDismissed).empty()) << offset;
+  }
+  Room room;
+  room.AddHalfSpace(1, {0, 0, 1}, 0);
+  room.Add(2, {0, 0, 1e8 + 1}, {0, 0, -1}, 1e8);
+  room.Run(2);
+  EXPECT_FALSE(room.With(EventStatus::kPossible).empty());
+}
+
 TEST(HalfSpaceAgent, EveryAgentOfACrowdMeetsTheWallsInTime) {
   Random random(4);
   Room room;

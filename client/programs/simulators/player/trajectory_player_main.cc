@@ -104,9 +104,10 @@ void Print(const Options& options, const std::vector<PlayedAgent>& agents) {
   if (options.player.acceleration_max_m_s2 < 0 &&
       options.player.known_acceleration == KnownUse::kAuto) {
     const auto tells = [](const PlayedAgent& agent) { return agent.known.has_value(); };
-    std::printf("%td of %zu agents tell their acceleration: their bound is smaller after %g s so\n",
-                std::count_if(agents.begin(), agents.end(), tells), agents.size(),
-                options.player.look_ahead_s);
+    std::printf(
+        "%td of %zu agents tell their acceleration: those whose bound that makes smaller %g s on\n",
+        std::count_if(agents.begin(), agents.end(), tells), agents.size(),
+        options.player.look_ahead_s);
   }
   std::fflush(stdout);
 }

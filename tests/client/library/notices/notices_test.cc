@@ -154,7 +154,8 @@ TEST_F(NoticesTest, EachReasonAndFieldOfARefusalIsToldOnceUpToALimit) {
   EXPECT_EQ(TakeAll().size(), kRefusalsToldMax - 1);
 }
 
-TEST_F(NoticesTest, ABreachIsToldOnceForEachAgentAndBound) {
+TEST_F(NoticesTest, ABreachIsToldOfEachAgentAndBoundAndAgainIfItGoesOn) {
+  const Notices::Time start;
   Breach breach{.agent = {},
                 .field = "speed_max_m_s",
                 .declared = 2,
@@ -162,11 +163,11 @@ TEST_F(NoticesTest, ABreachIsToldOnceForEachAgentAndBound) {
                 .from_ns = 1'500'000'000,
                 .at_ns = 1'600'000'000,
                 .count = 1};
-  notices_.Breach(breach, "ball");
+  notices_.Breach(breach, "ball", start);
   breach.count = 2;
-  notices_.Breach(breach, "ball");
+  notices_.Breach(breach, "ball", start + kNoticeAgain - std::chrono::seconds(1));
   breach.field = "acceleration_max_m_s2";
-  notices_.Breach(breach, "ball");
+  notices_.Breach(breach, "ball", start);
   notices_.SkewedClock(0);
   notices_.SkewedClock(1);
   auto told = TakeAll();
@@ -178,9 +179,15 @@ TEST_F(NoticesTest, ABreachIsToldOnceForEachAgentAndBound) {
   EXPECT_TRUE(Has(told[1].text, "ball broke acceleration_max_m_s2")) << told[1].text;
   EXPECT_TRUE(Has(told[2].text, "clock")) << told[2].text;
   for (std::size_t i = 0; i < 2 * kBreachesToldMax; ++i) {
-    notices_.Breach(breach, "ball " + std::to_string(i));
+    notices_.Breach(breach, "ball " + std::to_string(i), start);
   }
   EXPECT_EQ(TakeAll().size(), kBreachesToldMax - 2);
+  breach.field = "speed_max_m_s";
+  breach.count = 40;
+  notices_.Breach(breach, "ball", start + kNoticeAgain);
+  told = TakeAll();
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_TRUE(Has(told[0].text, "(40 times)")) << told[0].text;
 }
 
 class WorldNoticesTest : public testing::Test {

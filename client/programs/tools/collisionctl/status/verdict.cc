@@ -169,8 +169,13 @@ Lines Loads(const v1::ServiceStatus& status) {
 }
 
 std::string WellText(const v1::ServiceStatus& status) {
-  if (status.simulators().empty()) return "WELL: it serves, and no simulator is here yet";
-  return "WELL: time is not held up, nothing has failed, nothing is refused";
+  if (status.simulators().empty()) return "WELL: it serves, and no simulator is here";
+  const std::uint64_t broken = CounterOf(status, "breaches");
+  const std::string told = broken == 0
+                               ? ""
+                               : "; but agents broke what they declare, " + std::to_string(broken) +
+                                     (broken == 1 ? " time" : " times") + ": collisionctl agents";
+  return "WELL: time is not held up, nothing has failed, nothing is refused" + told;
 }
 
 }  // namespace

@@ -39,9 +39,19 @@ class VerdictTest : public CollisionctlTest {
 
 TEST_F(VerdictTest, AWorldWithoutTroubleIsWell) {
   Status();
-  EXPECT_EQ(Now(), Lines{"WELL: it serves, and no simulator is here yet"});
+  EXPECT_EQ(Now(), Lines{"WELL: it serves, and no simulator is here"});
   Status()->add_simulators();
   EXPECT_EQ(Now(), Lines{"WELL: time is not held up, nothing has failed, nothing is refused"});
+}
+
+TEST_F(VerdictTest, ThatDeclarationsWereBrokenIsToldWithTheWord) {
+  v1::ServiceStatus* status = Status();
+  status->add_simulators();
+  v1::Counter* breaches = status->add_counters();
+  breaches->set_name("breaches");
+  breaches->set_value(40);
+  EXPECT_EQ(Now(), Lines{"WELL: time is not held up, nothing has failed, nothing is refused; but "
+                         "agents broke what they declare, 40 times: collisionctl agents"});
 }
 
 TEST_F(VerdictTest, SaysForWhomTimeWaitsWhyAndWhatEndsIt) {

@@ -66,7 +66,7 @@ TEST_F(TopTest, HasWhatIsExpectedFirstThenTheNearestAndNoMoreThanTheRows) {
   contact.mutable_proximity()->mutable_separation_m()->set_upper(-0.1234);
   Add(contact);
   EXPECT_EQ(Page(4),
-            "WELL: it serves, and no simulator is here yet\n"
+            "WELL: it serves, and no simulator is here\n"
             "world lab, now 12.345 s; agents: 1; pairs that touch: 1, that may: 4\n"
             "WHEN          BEGIN             STATUS     GAP [m]   EXPECTED      PAIR\n"
             "now           [11.000, 11.001]  confirmed  ≤ -0.123  -             "
