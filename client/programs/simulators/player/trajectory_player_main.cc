@@ -149,9 +149,11 @@ void CheckPlans(const Options& options) {
   }
 }
 
-void PrintScreening(Pace* pace) {
-  pace->world().OnEvent([pace](const Event& event) {
+// Counts what it prints.
+void PrintScreening(Pace* pace, int* printed) {
+  pace->world().OnEvent([pace, printed](const Event& event) {
     if (!event.hypothetical) return;
+    ++*printed;
     const auto name = [pace](const AgentId& id) { return pace->world().Name(id); };
     std::printf("%s\n", EventLine(event, name, pace->start_ns()).c_str());
   });
@@ -177,9 +179,16 @@ int Run(Options options) {
   Pace pace(options.simulator);
   const std::vector<PlayedAgent> agents = Choose(options, file, pace.start_ns());
   Print(options, agents);
-  if (!options.quiet) PrintScreening(&pace);
+  const bool screens = options.player.hypothetical && !options.quiet;
+  int printed = 0;
+  if (screens) PrintScreening(&pace, &printed);
   Play(agents, options.player, &pace, &log);
   log.Close();
+  if (screens && printed == 0) {
+    std::printf(
+        "nothing was told of these plans: they meet nothing, or they ended before the world's time "
+        "came to them\n");
+  }
   pace.ReportTraffic(options.quiet);
   pace.CheckRefusals();
   return kExitOk;
