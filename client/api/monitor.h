@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "client/api/environment.h"
 #include "client/api/types.h"
 
 namespace collision::client {
@@ -20,8 +21,8 @@ class Receiver;
 
 /// Which world a monitor reads.
 struct MonitorOptions {
-  std::string world = "default";  ///< 1 to 64 of [A-Za-z0-9_-].
-  std::uint32_t domain = 0;       ///< DDS domain, 0 to 230.
+  std::string world = DefaultWorld();      ///< 1 to 64 of [A-Za-z0-9_-].
+  std::uint32_t domain = DefaultDomain();  ///< DDS domain, 0 to 230.
   /// Status, events, earliest intersection, clearances, rejections, breaches.
   bool service = true;
   bool simulators = false;  ///< Descriptions, removals, states and clocks of all simulators.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "client/api/environment.h"
 #include "client/api/notice.h"
 #include "client/api/types.h"
 
@@ -23,10 +24,10 @@ enum class OnLeave {
 
 /// How a simulator connects to its world.
 struct WorldOptions {
-  std::string world = "default";  ///< 1 to 64 of [A-Za-z0-9_-].
+  std::string world = DefaultWorld();  ///< 1 to 64 of [A-Za-z0-9_-].
   std::string simulator =
       {};  ///< Unique in the world, 1-64 of [A-Za-z0-9_-]; names your agents' owner.
-  std::uint32_t domain = 0;  ///< DDS domain, 0-230.
+  std::uint32_t domain = DefaultDomain();  ///< DDS domain, 0-230.
   /// Label of the frame in which positions are told, at most 64 bytes; empty: not stated. A service
   /// whose world states another one is refused, and refuses this simulator.
   std::string frame = {};
