@@ -11,7 +11,8 @@ namespace collision::client {
 std::string DefaultWorld();
 
 /// The DDS domain COLLISION_DOMAIN if it is set and not empty; else 0. Throws
-/// std::invalid_argument, with the variable and the allowed range, if it is no number from 0 to 230.
+/// std::invalid_argument, with the variable and the allowed range, if it is no number from 0 to
+/// 230.
 std::uint32_t DefaultDomain();
 
 }  // namespace collision::client
