@@ -58,7 +58,8 @@ TEST_F(StatusDetailsTest, ShowsSimulatorsAndCounters) {
   EXPECT_TRUE(view_.knows_all_agents());
   EXPECT_EQ(
       StatusDetails(view_),
-      "WELL: time is not held up, nothing has failed, nothing is refused\n"
+      "WELL: time is not held up, nothing has failed, nothing is refused; but agents broke "
+      "what they declare, 1 time: collisionctl agents\n"
       "\n"
       "ROLE    SERVICE           PROCESS  VERSION  TERM  LEASE  AGENTS  NOW       CONFIGURATION\n"
       "serves  0000000000000001  -        0.1.0    2     -      1       12.345 s  -\n"

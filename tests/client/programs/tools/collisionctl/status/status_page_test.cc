@@ -42,7 +42,8 @@ TEST_F(StatusPageTest, SaysWhatMattersOfASmallWorld) {
   Extend(standby, "standby", "ready");
   Poll(2);
   EXPECT_EQ(StatusPage(view_),
-            "WELL: time is not held up, nothing has failed, nothing is refused\n"
+            "WELL: time is not held up, nothing has failed, nothing is refused; but agents broke "
+            "what they declare, 1 time: collisionctl agents\n"
             "service      version 0.1.0, pid 12 on host-a, term 2; standby: 0000000000000002 "
             "ready, of another configuration\n"
             "world        lab, lock-step, frame ENU, now 12.345 s\n"
