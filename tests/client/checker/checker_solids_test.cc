@@ -7,6 +7,7 @@
 
 #include "client/checker/shape/bodies.h"
 #include "client/checker/shape/placement.h"
+#include "tests/client/checker/contact_margin.h"
 #include "tests/client/checker/random_pose.h"
 #include "tests/client/checker/solids.h"
 #include "tests/support/random.h"
@@ -214,16 +215,7 @@ TEST(Solids, TheMarginOfAContactKeepsItsPromise) {
     const std::vector<Solid> a = {Box({0.5, 0.3, 0.2}, 0.1)};
     const std::vector<Solid> b = {Capsule(0.2, {-0.5, 0, 0}, {0.5, 0, 0}), Ball(0.3, {0, 0, 0.4})};
     const Pose pose = RandomPose(&random, 0.9);
-    Hint hint;
-    const Standing standing = StandingOf(Of(a), Of(b), pose, &hint);
-    if (!standing.contact) continue;
-    ++contacts;
-    for (int i = 0; i < 30; ++i) {
-      const auto u = random.UnitVector();
-      Pose moved = pose;
-      moved.p_AB = pose.p_AB + 0.9999 * standing.margin * Vector{u.x(), u.y(), u.z()};
-      EXPECT_TRUE(InContact(Of(a), Of(b), moved, &hint)) << run;
-    }
+    contacts += TouchWithinTheirMargin(Of(a), Of(b), pose, &random);
   }
   EXPECT_GE(contacts, 50);
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "client/checker/shape/bodies.h"
+#include "tests/client/checker/contact_margin.h"
 #include "tests/client/checker/random_pose.h"
 #include "tests/client/checker/solids.h"
 #include "tests/support/random.h"
@@ -203,16 +204,7 @@ TEST(RoundSolids, TheMarginOfAContactKeepsItsPromise) {
     const Body a{nullptr, 0, &solids};
     const Body b = run % 5 == 0 ? Body{&mesh, 0} : Body{nullptr, 0, &egg};
     const Pose pose = RandomPose(&random, 0.7);
-    Hint hint;
-    const Standing standing = StandingOf(a, b, pose, &hint);
-    if (!standing.contact) continue;
-    ++contacts;
-    for (int i = 0; i < 30; ++i) {
-      const auto u = random.UnitVector();
-      Pose moved = pose;
-      moved.p_AB = pose.p_AB + 0.9999 * standing.margin * Vector{u.x(), u.y(), u.z()};
-      EXPECT_TRUE(InContact(a, b, moved, &hint)) << run;
-    }
+    contacts += TouchWithinTheirMargin(a, b, pose, &random);
   }
   EXPECT_GE(contacts, 50);
   EXPECT_GT(Between(Cylinder(1, 1), Cylinder(1, 1), {}).margin, 0.5);

@@ -201,7 +201,7 @@ std::string WhyPage(const PairReport& report, const WorldView& view) {
                                  : "not before " + InstantText(*report.earliest_ns, 0, 6) +
                                        ", from these bounds");
   }
-  page += Line("apart", report.apart.empty() ? "nothing keeps them apart" : Joined(report.apart));
+  page += Line("apart", report.apart.empty() ? "nothing that they declare" : Joined(report.apart));
   if (!report.not_told.empty()) {
     page += Line("not told", Joined(report.not_told) + ": see the service's configuration");
   }

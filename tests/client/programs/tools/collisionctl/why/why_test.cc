@@ -252,7 +252,7 @@ TEST_F(WhyTest, ThePageAndItsJsonSayAll) {
        {"ada (sim)", "ball of 0.5 m", "D 2 m/s², J 0 m/s³", "3.000 s old, at 9.345 s", "reach now ",
         "9 m: acceleration 9", "reach at the earliest",
         "distance     11 m between the reference points, 1 m between all that they can reach\n",
-        "earliest     not before 12.", "apart        nothing keeps them apart\n",
+        "earliest     not before 12.", "apart        nothing that they declare\n",
         "event        none\n", "narrower by  a newer state of bob (sim)"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
   }
