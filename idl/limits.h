@@ -54,7 +54,7 @@ inline constexpr unsigned kRecordingFormat = 3;
 
 inline constexpr std::uint32_t kSlotMax = 65535;  ///< Slots are reused, so 65536 are enough.
 inline constexpr int kStatesPerChunkMax = 64;     ///< Slots in a chunk of states or clearances.
-inline constexpr int kStatesPerSampleMax = 128;   ///< With those before them that are jumps.
+inline constexpr int kStatesPerSampleMax = 128;   ///< With those before them that count too.
 inline constexpr int kClassesMax = 31;  ///< Named classes of agents; with the one without, 32.
 inline constexpr int kLevelsMax = 8;    ///< Levels of one service.
 inline constexpr std::uint32_t kDomainMax = 230;  ///< Higher DDS domains have ports beyond 65535.

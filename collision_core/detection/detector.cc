@@ -27,6 +27,9 @@ bool Detector::Redeclare(const AgentId& id, const AgentDeclaration& declaration,
   return implementation_->Redeclare(id, declaration, effective_from);
 }
 bool Detector::Remove(const AgentId& id) { return implementation_->Remove(id); }
+const motion::MotionState* Detector::StateOf(const AgentId& id) const {
+  return implementation_->StateOf(id);
+}
 void Detector::ForEachAgent(const std::function<void(const HeldAgent&)>& use) const {
   implementation_->ForEachAgent(use);
 }

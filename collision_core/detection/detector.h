@@ -92,6 +92,10 @@ class Detector {
   /// agent.
   bool Remove(const AgentId& id);
 
+  /// The newest state of an agent, until the next call that is not const; null: there is no such
+  /// agent, or it has expired. O(log agents).
+  const motion::MotionState* StateOf(const AgentId& id) const;
+
   /// Calls `use` with each agent that is not removed, in an order that depends on nothing but the
   /// calls before. O(agents). `use` calls nothing of this detector.
   void ForEachAgent(const std::function<void(const HeldAgent&)>& use) const;

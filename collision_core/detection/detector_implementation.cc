@@ -14,7 +14,8 @@ namespace {
 constexpr double kLateness = 2;
 
 /// A half-space stays where it is, whatever its states say.
-motion::MotionState StateOf(const AgentDeclaration& declaration, const motion::MotionState& told) {
+motion::MotionState AsDeclared(const AgentDeclaration& declaration,
+                               const motion::MotionState& told) {
   if (!declaration.half_space) return told;
   return {.stamp = told.stamp, .expiry = told.expiry};
 }
@@ -36,7 +37,7 @@ bool Detector::Implementation::Admit(const AgentId& id, const AgentDeclaration& 
   if (agent.is_none()) return false;
   pairs_.AddAgent(agent);
   clearances_.AddAgent(agent);
-  agents_.Store(agent, StateOf(declaration, state), Link::kJumped);
+  agents_.Store(agent, AsDeclared(declaration, state), Link::kJumped);
   Renew(agent, {state.stamp, ClearanceCause::kAdmission, effective_from});
   return true;
 }
@@ -46,7 +47,7 @@ UpdateOutcome Detector::Implementation::Update(const AgentId& id, const motion::
   const AgentIndex agent = agents_.Find(id);
   if (agent.is_none()) return UpdateOutcome::kUnknown;
   const AgentRecord& record = agents_[agent];
-  const motion::MotionState state = StateOf(record.declaration, told);
+  const motion::MotionState state = AsDeclared(record.declaration, told);
   if (state.stamp < record.stamp()) return UpdateOutcome::kOlder;
   const NextState next{agent, state, effective_from};
   if (record.expired) return Return(next);
@@ -153,6 +154,12 @@ bool Detector::Implementation::Remove(const AgentId& id) {
   if (agent.is_none()) return false;
   agents_.Remove(agent);
   return true;
+}
+
+const motion::MotionState* Detector::Implementation::StateOf(const AgentId& id) const {
+  const AgentIndex agent = agents_.Find(id);
+  if (agent.is_none() || agents_[agent].expired) return nullptr;
+  return &agents_[agent].bound().state;
 }
 
 void Detector::Implementation::ForEachAgent(

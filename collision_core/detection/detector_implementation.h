@@ -25,6 +25,7 @@ class Detector::Implementation {
   motion::BrokenBound ExplainLastBreach() const;
   bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
   bool Remove(const AgentId& id);
+  const motion::MotionState* StateOf(const AgentId& id) const;
   void ForEachAgent(const std::function<void(const HeldAgent&)>& use) const;
   void SetHeardUntil(const OwnerId& owner, Instant until) { agents_.SetHeardUntil(owner, until); }
   void SetPairShare(const OwnerId& owner, const Share& share) { pairs_.SetShare(owner, share); }

@@ -70,8 +70,12 @@ bool Detectors::Remove(const detection::AgentId& id) {
   return contacts_.Remove(id);
 }
 
+const motion::MotionState* Detectors::StateOf(const detection::AgentId& id) const {
+  return DetectorOf(id).StateOf(id);
+}
+
 motion::BrokenBound Detectors::ExplainLastBreach(const detection::AgentId& id) const {
-  return (IsHypothetical(id) ? screening_->detector() : contacts_).ExplainLastBreach();
+  return DetectorOf(id).ExplainLastBreach();
 }
 
 void Detectors::SetHeardUntil(const detection::OwnerId& owner, Instant until) {
@@ -107,6 +111,10 @@ ScreeningDetector& Detectors::Screening() {
     screening_ = std::make_unique<ScreeningDetector>(ScreeningDetectorOptions(config_), contacts_);
   }
   return *screening_;
+}
+
+const detection::Detector& Detectors::DetectorOf(const detection::AgentId& id) const {
+  return IsHypothetical(id) ? screening_->detector() : contacts_;
 }
 
 bool Detectors::IsHypothetical(const detection::AgentId& id) const {

@@ -33,6 +33,8 @@ class Detectors {
   bool Redeclare(const detection::AgentId& id, const detection::AgentDeclaration& declaration,
                  Instant effective_from);
   bool Remove(const detection::AgentId& id);
+  /// As Detector::StateOf(), of an agent of either kind.
+  const motion::MotionState* StateOf(const detection::AgentId& id) const;
   /// Of the agent whose Update() was the last one, and returned kBreached.
   motion::BrokenBound ExplainLastBreach(const detection::AgentId& id) const;
   void SetHeardUntil(const detection::OwnerId& owner, Instant until);
@@ -77,6 +79,8 @@ class Detectors {
   void AddLevels();
   ScreeningDetector& Screening();
   bool IsHypothetical(const detection::AgentId& id) const;
+  /// The one that decides about the agent.
+  const detection::Detector& DetectorOf(const detection::AgentId& id) const;
 
   const v1::Config& config_;
   detection::DetectorCounters past_;  ///< Of the epochs that are over.

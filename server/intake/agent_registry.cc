@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "collision_core/motion/contract.h"
 #include "collision_core/shape/fixed_half_space.h"
 #include "idl/identity.h"
 #include "server/process/logging.h"
@@ -15,6 +16,15 @@ namespace {
 bool SameHalfSpace(const detection::AgentDeclaration& a, const detection::AgentDeclaration& b) {
   if (!a.half_space || !b.half_space) return !a.half_space && !b.half_space;
   return a.half_space->IsSameAs(*b.half_space);
+}
+
+/// Whether no motion that is declared leads from the one state to the other.
+bool Breaks(const detection::AgentDeclaration& declared, const motion::MotionState& before,
+            const motion::MotionState& next) {
+  const auto orientation = declared.shape != nullptr ? motion::OrientationUse::kMatters
+                                                     : motion::OrientationUse::kIgnored;
+  return motion::CheckContract({before, declared.limits}, next, orientation).verdict ==
+         motion::ContractVerdict::kBreached;
 }
 
 }  // namespace
@@ -194,8 +204,24 @@ void AgentRegistry::SetWaiting(Simulator* simulator, std::uint32_t slot,
     }
     undescribed_.Add(world_.monotonic_ns(), id);
   }
-  agents.SetWaiting(slot, waiting);
+  agents.SetWaiting(slot, waiting,
+                    CountsBefore(*simulator, slot, waiting) ? AgentTable::Former::kWaitsOn
+                                                            : AgentTable::Former::kReplaced);
   told_[simulator->id()].try_emplace(slot);
+}
+
+bool AgentRegistry::CountsBefore(const Simulator& simulator, std::uint32_t slot,
+                                 const WaitingState& next) const {
+  const Agent* agent = simulator.agents().Find(slot, next.generation);
+  const std::span<const WaitingState> all = simulator.agents().AllWaiting(slot);
+  if (agent == nullptr || !agent->admitted() || all.empty()) return false;
+  const motion::MotionState& newest = all.back().state;
+  if (newest.discontinuity) return true;
+  const motion::MotionState* before =
+      all.size() > 1 ? &all[all.size() - 2].state
+                     : detectors_.StateOf(simulator.IdOf(slot, next.generation));
+  if (before != nullptr && Breaks(agent->declaration, *before, newest)) return true;
+  return !next.state.discontinuity && Breaks(agent->declaration, newest, next.state);
 }
 
 bool AgentRegistry::IsDescribed(const Simulator& simulator, std::uint32_t slot,

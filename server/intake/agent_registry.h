@@ -117,6 +117,10 @@ class AgentRegistry {
   static detection::AgentDeclaration FormerOf(const Agent& agent);
   detection::UpdateOutcome UpdateFormer(const detection::AgentId& id, const Agent& agent,
                                         const motion::MotionState& state);
+  /// Whether the newest state that waits counts beside `next`, which follows it: it is a jump, or
+  /// either end of a motion that the agent's declaration excludes. All others say nothing that the
+  /// states before and after do not, and whether they arrive depends on the network.
+  bool CountsBefore(const Simulator& simulator, std::uint32_t slot, const WaitingState& next) const;
   void SetWaiting(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
   void AdmitIfComplete(Simulator* simulator, std::uint32_t slot);
   void Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);

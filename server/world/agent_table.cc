@@ -22,10 +22,15 @@ Agent* AgentTable::Find(std::uint32_t slot, std::uint32_t generation) {
   return const_cast<Agent*>(std::as_const(*this).Find(slot, generation));
 }
 
-const WaitingState* AgentTable::Waiting(std::uint32_t slot) const {
+std::span<const WaitingState> AgentTable::AllWaiting(std::uint32_t slot) const {
   const auto found = slots_.find(slot);
-  if (found == slots_.end() || found->second.waiting.empty()) return nullptr;
-  return &found->second.waiting.back();
+  if (found == slots_.end()) return {};
+  return found->second.waiting;
+}
+
+const WaitingState* AgentTable::Waiting(std::uint32_t slot) const {
+  const std::span<const WaitingState> all = AllWaiting(slot);
+  return all.empty() ? nullptr : &all.back();
 }
 
 bool AgentTable::HasEnded(std::uint32_t slot, std::uint32_t generation) const {
@@ -76,15 +81,15 @@ void AgentTable::AcknowledgeRevision(std::uint32_t slot, std::uint32_t generatio
   clearances_.MarkChanged(slot);
 }
 
-void AgentTable::SetWaiting(std::uint32_t slot, const WaitingState& waiting) {
+void AgentTable::SetWaiting(std::uint32_t slot, const WaitingState& waiting, Former former) {
   const Agent* agent = Find(slot, waiting.generation);
   std::vector<WaitingState>& all = slots_[slot].waiting;
   if (agent == nullptr || !agent->admitted_ ||
       (!all.empty() && all.back().generation != waiting.generation)) {
     all.clear();
   }
-  if (!all.empty() && !all.back().state.discontinuity) all.pop_back();
-  if (all.size() > kJumpsWaitingMax) all.erase(all.begin());
+  if (!all.empty() && former == Former::kReplaced) all.pop_back();
+  if (all.size() > kWaitingBeforeMax) all.erase(all.begin());
   all.push_back(waiting);
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -76,16 +77,16 @@ class Agent {
   std::uint64_t acknowledged_sequence_ = 0;
 };
 
-/// A state that has not taken effect: the newest of its slot, or a jump before it.
+/// A state that has not taken effect: the newest of its slot, or one before that counts as well.
 struct WaitingState {
   std::uint32_t generation = 0;
   std::uint64_t sequence = 0;
   motion::MotionState state;
 };
 
-/// Jumps of one agent that wait for its newest state to take effect; beyond, the oldest is dropped:
-/// what lies between two jumps is not known then, as if the network had lost it.
-inline constexpr std::size_t kJumpsWaitingMax = 64;
+/// States of one agent that wait with its newest one; beyond, the oldest is dropped: what lies
+/// between two of them is not known then, as if the network had lost it.
+inline constexpr std::size_t kWaitingBeforeMax = 64;
 
 /// What a state that arrives is, beside those before it.
 enum class StateOrder {
@@ -109,6 +110,9 @@ class AgentTable {
   Agent* Find(std::uint32_t slot, std::uint32_t generation);
   const Agent* Find(std::uint32_t slot, std::uint32_t generation) const;
 
+  /// What waits in `slot`, the newest last.
+  std::span<const WaitingState> AllWaiting(std::uint32_t slot) const;
+
   /// The newest state that waits in `slot`; null: there is none.
   const WaitingState* Waiting(std::uint32_t slot) const;
 
@@ -131,9 +135,12 @@ class AgentTable {
   void AcknowledgeRevision(std::uint32_t slot, std::uint32_t generation, std::uint32_t revision,
                            Instant from);
 
-  /// Replaces the newest state that waits in `slot`. If that is a jump of an agent that is
-  /// admitted, it waits on: what lies between it and the next one counts.
-  void SetWaiting(std::uint32_t slot, const WaitingState& waiting);
+  /// What becomes of the newest state that waits when a newer one comes.
+  enum class Former { kReplaced, kWaitsOn };
+
+  /// `waiting` is the newest state in `slot`. The one before waits on only of the same generation
+  /// of an agent that is admitted.
+  void SetWaiting(std::uint32_t slot, const WaitingState& waiting, Former former);
 
   /// Hands out what waits in `slot`, the newest last, which then waits no more. Requires one.
   [[nodiscard]] std::vector<WaitingState> TakeWaiting(std::uint32_t slot);

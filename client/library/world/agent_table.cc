@@ -215,21 +215,22 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
   // arrives last, and a clock that names it counts when all have come.
   std::sort(staged_slots_.begin(), staged_slots_.end());
   std::size_t waiting = 0;
+  const std::uint64_t sent_before = states_sequence_;
   for (const std::uint32_t index : staged_slots_) {
     Slot& slot = slots_[index];
     if (IsDue(index, clock_ns)) {
       slot.sent_at = now_;
       stated_ += !slot.states.sent().has_value();
-      if (slot.states.sent() && slot.states.staged()->discontinuity) jumped_slots_.push_back(index);
-      slot.states.MarkSent(++states_sequence_, slot.description.revision(), policy_);
+      if (slot.states.sent() && slot.states.StagedJumps()) jumped_slots_.push_back(index);
+      slot.states.MarkSent(&states_sequence_, slot.description.revision());
       standing_sequence_ = states_sequence_;
-      ++traffic_.states_sent;
       chunks.push_back(index / policy_.chunk_size);
     } else {
       staged_slots_[waiting++] = index;
     }
   }
   staged_slots_.resize(waiting);
+  traffic_.states_sent += states_sequence_ - sent_before;
   std::sort(chunks.begin(), chunks.end());
   chunks.erase(std::unique(chunks.begin(), chunks.end()), chunks.end());
   traffic_.samples_sent += chunks.size();
@@ -320,19 +321,41 @@ v1::AgentState AgentTable::Message(std::uint32_t slot, const State& state,
   return message;
 }
 
+std::pair<std::uint32_t, std::uint32_t> AgentTable::SlotsOf(std::uint32_t chunk) const {
+  const std::uint32_t first = chunk * policy_.chunk_size;
+  return {first, std::min(first + policy_.chunk_size, static_cast<std::uint32_t>(slots_.size()))};
+}
+
+// Of those that do not fit, the oldest are left out.
+std::uint64_t AgentTable::CarriedAfter(std::uint32_t chunk) const {
+  std::vector<std::uint64_t> sequences;
+  const auto [first, end] = SlotsOf(chunk);
+  for (std::uint32_t slot = first; slot < end; ++slot) {
+    for (const OutgoingStates::Carried& one : slots_[slot].states.carried()) {
+      sequences.push_back(one.sequence);
+    }
+  }
+  const std::size_t room = wire::kStatesPerSampleMax - policy_.chunk_size;
+  if (sequences.size() <= room) return 0;
+  const auto last = sequences.begin() + static_cast<std::ptrdiff_t>(sequences.size() - room - 1);
+  std::nth_element(sequences.begin(), last, sequences.end());
+  return *last;
+}
+
 v1::AgentStates AgentTable::Chunk(std::uint32_t chunk) const {
   v1::AgentStates states;
   states.set_simulator_id(simulator_id_);
   states.set_chunk(chunk);
   states.set_incarnation(incarnation_);
   states.set_run(run_);
-  const std::uint32_t first = chunk * policy_.chunk_size;
-  const auto slots = static_cast<std::uint32_t>(slots_.size());
-  for (std::uint32_t slot = first; slot < std::min(first + policy_.chunk_size, slots); ++slot) {
+  const std::uint64_t carried_after = CarriedAfter(chunk);
+  const auto [first, end] = SlotsOf(chunk);
+  for (std::uint32_t slot = first; slot < end; ++slot) {
     const OutgoingStates& outgoing = slots_[slot].states;
     if (!outgoing.sent()) continue;
-    for (const OutgoingStates::Jump& jump : outgoing.jumps()) {
-      *states.add_states() = Message(slot, jump.state, jump.sequence);
+    for (const OutgoingStates::Carried& one : outgoing.carried()) {
+      if (one.sequence <= carried_after) continue;
+      *states.add_states() = Message(slot, one.state, one.sequence);
     }
     *states.add_states() = Message(slot, *outgoing.sent(), outgoing.sent_sequence());
   }

@@ -114,6 +114,11 @@ class AgentTable {
   bool IsDue(std::uint32_t index, std::int64_t clock_ns) const;
   bool IsWatched(std::uint32_t index) const;
   v1::AgentState Message(std::uint32_t slot, const State& state, std::uint64_t sequence) const;
+  /// First slot of a chunk, and one past its last.
+  std::pair<std::uint32_t, std::uint32_t> SlotsOf(std::uint32_t chunk) const;
+  /// Of the states that a chunk's sample carries beside the newest ones, those above this number
+  /// have room.
+  std::uint64_t CarriedAfter(std::uint32_t chunk) const;
   v1::AgentStates Chunk(std::uint32_t chunk) const;
 
   std::string simulator_name_;

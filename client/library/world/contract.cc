@@ -81,25 +81,25 @@ motion::SpaceTimeBound ToCore(const MotionBounds& bounds, const State& state) {
   return core;
 }
 
-bool PathStandsIn(const MotionBounds& bounds, const State& sent, const State& next, double s) {
-  const double speed_sent = Norm(sent.velocity_m_s), speed_next = Norm(next.velocity_m_s);
-  const double speed = std::max(speed_sent, speed_next);
-  const double range = std::max(Norm(sent.position_m), Norm(next.position_m)) + speed * s;
+bool PathMayFollow(const MotionBounds& bounds, const State& before, const State& next, double s) {
+  const double speed_before = Norm(before.velocity_m_s), speed_next = Norm(next.velocity_m_s);
+  const double speed = std::max(speed_before, speed_next);
+  const double range = std::max(Norm(before.position_m), Norm(next.position_m)) + speed * s;
   const double jerk = bounds.jerk_max_m_s3;
   Room room = RoomFor(bounds.acceleration_max_m_s2, bounds.time_step_s, speed, range, s);
   room.position += jerk * s * s * s / 6;
   room.velocity += 0.5 * jerk * s * s;
-  const double velocity_error = sent.velocity_error_m_s + next.velocity_error_m_s;
+  const double velocity_error = before.velocity_error_m_s + next.velocity_error_m_s;
   const double position_error =
-      sent.position_error_m + next.position_error_m + sent.velocity_error_m_s * s;
-  Vector3 moved = Difference(next.position_m, sent.position_m);
-  Vector3 sped = Difference(next.velocity_m_s, sent.velocity_m_s);
+      before.position_error_m + next.position_error_m + before.velocity_error_m_s * s;
+  Vector3 moved = Difference(next.position_m, before.position_m);
+  Vector3 sped = Difference(next.velocity_m_s, before.velocity_m_s);
   for (int axis = 0; axis < 3; ++axis) {
-    const double gained = sent.acceleration_m_s2[axis] * s;
-    moved[axis] -= (sent.velocity_m_s[axis] + 0.5 * gained) * s;
+    const double gained = before.acceleration_m_s2[axis] * s;
+    moved[axis] -= (before.velocity_m_s[axis] + 0.5 * gained) * s;
     sped[axis] -= gained;
   }
-  const Vector3 changed = Difference(next.acceleration_m_s2, sent.acceleration_m_s2);
+  const Vector3 changed = Difference(next.acceleration_m_s2, before.acceleration_m_s2);
   if (!(Norm(changed) <=
         2 * bounds.acceleration_max_m_s2 + jerk * s + kRounding * Norm(next.acceleration_m_s2))) {
     return false;
@@ -111,27 +111,28 @@ bool PathStandsIn(const MotionBounds& bounds, const State& sent, const State& ne
     return false;
   }
   // Half of what the service allows, as above; the service also allows for clocks that differ.
-  if (!(GapBetween(ToCore(bounds, sent), ToCore(next)) <=
+  if (!(GapBetween(ToCore(bounds, before), ToCore(next)) <=
         room.position_rounding + room.velocity_rounding * s)) {
     return false;
   }
-  if (!sent.thrust_direction || sent.direction_until_ns < next.stamp_ns) return true;
-  const Vector3& direction = *sent.thrust_direction;
+  if (!before.thrust_direction || before.direction_until_ns < next.stamp_ns) return true;
+  const Vector3& direction = *before.thrust_direction;
   return -Dot(moved, direction) <= position_error + room.position_rounding &&
          -Dot(sped, direction) <= velocity_error + room.velocity_rounding;
 }
 
-bool TurnStandsIn(const MotionBounds& bounds, const State& sent, const State& next, double s) {
+bool TurnMayFollow(const MotionBounds& bounds, const State& before, const State& next, double s) {
   if (!bounds.turns || !bounds.angular_acceleration_max_rad_s2) return true;
   const double alpha = *bounds.angular_acceleration_max_rad_s2;
   const double rate =
-      std::max(Norm(sent.angular_velocity_rad_s), Norm(next.angular_velocity_rad_s));
+      std::max(Norm(before.angular_velocity_rad_s), Norm(next.angular_velocity_rad_s));
   const Room room = RoomFor(alpha, bounds.time_step_s, rate, 0, s);
   const double angle =
-      AngleBetween(Turned(sent.orientation, sent.angular_velocity_rad_s, s), next.orientation);
-  const double change = Norm(Difference(next.angular_velocity_rad_s, sent.angular_velocity_rad_s));
+      AngleBetween(Turned(before.orientation, before.angular_velocity_rad_s, s), next.orientation);
+  const double change =
+      Norm(Difference(next.angular_velocity_rad_s, before.angular_velocity_rad_s));
   return angle <=
-             room.position + kTurnRounding + sent.rotation_error_rad + next.rotation_error_rad &&
+             room.position + kTurnRounding + before.rotation_error_rad + next.rotation_error_rad &&
          change <= room.velocity;
 }
 
@@ -146,13 +147,17 @@ MotionBounds BoundsOf(const AgentDescription& description) {
           .turns = description.shape != nullptr};
 }
 
-bool StandsIn(const MotionBounds& bounds, const State& sent, const State& next) {
-  if (!SameDeclaration(sent, next) || next.stamp_ns < sent.stamp_ns) return false;
+bool MayFollow(const MotionBounds& bounds, const State& before, const State& next) {
+  if (next.stamp_ns < before.stamp_ns) return false;
   // The difference of two stamps fits only in an unsigned number.
   const auto ns =
-      static_cast<std::uint64_t>(next.stamp_ns) - static_cast<std::uint64_t>(sent.stamp_ns);
+      static_cast<std::uint64_t>(next.stamp_ns) - static_cast<std::uint64_t>(before.stamp_ns);
   const double s = static_cast<double>(ns) * 1e-9;
-  return PathStandsIn(bounds, sent, next, s) && TurnStandsIn(bounds, sent, next, s);
+  return PathMayFollow(bounds, before, next, s) && TurnMayFollow(bounds, before, next, s);
+}
+
+bool StandsIn(const MotionBounds& bounds, const State& sent, const State& next) {
+  return SameDeclaration(sent, next) && MayFollow(bounds, sent, next);
 }
 
 }  // namespace collision::client

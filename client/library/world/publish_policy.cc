@@ -35,10 +35,28 @@ void OutgoingStates::Stage(const State& state, const MotionBounds& bounds,
     period_ns_ =
         static_cast<std::int64_t>(std::min(kPeriodMax, Between(before->stamp_ns, state.stamp_ns)));
   }
-  const bool jumps = state.discontinuity || (staged_ && staged_->discontinuity);
+  // Of an agent that nobody knows yet only the newest state counts, and of one stamp the last.
+  const bool corrects = staged_ && (!sent_ || staged_->stamp_ns >= state.stamp_ns);
+  const bool breaks =
+      before && !corrects && !state.discontinuity && !MayFollow(bounds, *before, state);
+  bool jumps = state.discontinuity;
+  if (staged_ && !corrects && (staged_counts_ || breaks)) {
+    staged_before_.push_back(*staged_);
+    if (staged_before_.size() > kCarriedMax) staged_before_.erase(staged_before_.begin());
+  } else if (staged_) {
+    jumps = jumps || staged_->discontinuity;
+  } else {
+    sent_counts_ = sent_counts_ || breaks;
+  }
   staged_ = state;
   staged_->discontinuity = jumps;
+  staged_counts_ = breaks || (corrects && staged_counts_);
   stands_in_ = policy.on_demand && sent_ && StandsIn(bounds, *sent_, *staged_);
+}
+
+bool OutgoingStates::StagedJumps() const {
+  return staged_->discontinuity || std::any_of(staged_before_.begin(), staged_before_.end(),
+                                               [](const State& one) { return one.discontinuity; });
 }
 
 bool OutgoingStates::IsDue(std::int64_t clock_ns, std::uint32_t revision,
@@ -60,21 +78,23 @@ bool OutgoingStates::IsDue(std::int64_t clock_ns, std::uint32_t revision,
 }
 
 bool OutgoingStates::MustBeSent(std::uint32_t revision) const {
-  return !stands_in_ || sent_revision_ != revision;
+  return !stands_in_ || !staged_before_.empty() || sent_revision_ != revision;
 }
 
-void OutgoingStates::MarkSent(std::uint64_t sequence, std::uint32_t revision,
-                              const PublishPolicy& policy) {
-  if (MustBeSent(revision)) must_sequence_ = sequence;
-  if (sent_ && sent_->discontinuity && sent_sequence_ > acknowledged_) {
-    jumps_.push_back({*sent_, sent_sequence_});
-  }
-  // In a sample there is room for one of each agent at least.
-  const std::size_t kept = wire::kStatesPerChunkMax / policy.chunk_size;
-  if (jumps_.size() > kept) jumps_.erase(jumps_.begin());
+void OutgoingStates::MarkSent(std::uint64_t* sequence, std::uint32_t revision) {
+  const bool must_be_sent = MustBeSent(revision);
+  if (sent_ && sent_counts_ && sent_sequence_ > acknowledged_) Carry(*sent_, sent_sequence_);
+  for (const State& state : std::exchange(staged_before_, {})) Carry(state, ++*sequence);
   sent_ = std::exchange(staged_, std::nullopt);
-  sent_sequence_ = sequence;
+  sent_counts_ = std::exchange(staged_counts_, false) || sent_->discontinuity;
+  sent_sequence_ = ++*sequence;
   sent_revision_ = revision;
+  if (must_be_sent) must_sequence_ = sent_sequence_;
+}
+
+void OutgoingStates::Carry(const State& state, std::uint64_t sequence) {
+  carried_.push_back({state, sequence});
+  if (carried_.size() > kCarriedMax) carried_.erase(carried_.begin());
 }
 
 std::optional<std::int64_t> OutgoingStates::JumpOnItsWay(std::int64_t clock_ns) const {
@@ -82,8 +102,9 @@ std::optional<std::int64_t> OutgoingStates::JumpOnItsWay(std::int64_t clock_ns) 
     return answered_ || jump.stamp_ns >= clock_ns ||
            Between(jump.stamp_ns, clock_ns) < kAnsweredWithin;
   };
-  for (const Jump& jump : jumps_) {
-    if (counts(jump.state)) return jump.state.stamp_ns;
+  for (const Carried& carried : carried_) {
+    const State& state = carried.state;
+    if (state.discontinuity && counts(state)) return state.stamp_ns;
   }
   const bool newest = sent_ && sent_->discontinuity && sent_sequence_ > acknowledged_;
   return newest && counts(*sent_) ? std::optional(sent_->stamp_ns) : std::nullopt;
@@ -101,7 +122,7 @@ void OutgoingStates::SetClearance(const Clearance& clearance, std::uint64_t ackn
   wanted_always_ = clearance.state_wanted_ns <= now_ns;
   answered_ = acknowledged > 0;
   acknowledged_ = acknowledged;
-  std::erase_if(jumps_, [&](const Jump& jump) { return jump.sequence <= acknowledged; });
+  std::erase_if(carried_, [&](const Carried& one) { return one.sequence <= acknowledged; });
 }
 
 }  // namespace collision::client

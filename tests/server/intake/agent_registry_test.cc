@@ -112,6 +112,63 @@ INSTANTIATE_TEST_SUITE_P(EveryOrder, AgentRegistryOrderTest,
                                          std::array{1, 0, 2}, std::array{1, 2, 0},
                                          std::array{2, 0, 1}, std::array{2, 1, 0}));
 
+/// States of an agent at rest that wait for the end of a round, in which nothing but the newest
+/// counts, unless they break what the agent declares: 2 m/s².
+class AgentRegistryRoundTest : public AgentRegistryTest {
+ protected:
+  /// At x after so many milliseconds, which is also the number of the state.
+  void Hear(std::uint64_t ms, double x, bool jumps = false) {
+    v1::AgentState state = State(0, static_cast<std::int64_t>(ms) * 1'000'000, ms);
+    state.mutable_position_m()->set_x(x);
+    state.set_discontinuity(jumps);
+    registry.TakeState(alpha, Chunk("alpha"), state);
+  }
+  std::uint64_t BreachesOfRound() {
+    const std::uint64_t before = detector.counters().breaches;
+    registry.Enact(alpha);
+    return detector.counters().breaches - before;
+  }
+};
+
+TEST_F(AgentRegistryRoundTest, OfStatesThatFollowTheNewestCounts) {
+  Join();
+  for (const std::uint64_t ms : {10, 20, 30}) Hear(ms, 0);
+  EXPECT_EQ(BreachesOfRound(), 0u);
+  EXPECT_EQ(counters().states_accepted, 2u);
+  EXPECT_EQ(alpha->agents().Find(0)->acknowledged_sequence(), 30u);
+}
+
+TEST_F(AgentRegistryRoundTest, AnAgentThatLeapsAndIsBackBeforeTheRoundIsOverHasBrokenItsWord) {
+  Join();
+  Hear(10, 0);
+  Hear(20, 100);
+  Hear(30, 0);
+  Hear(40, 0);
+  Hear(50, 0);
+  EXPECT_EQ(BreachesOfRound(), 2u) << "there and back";
+  EXPECT_EQ(counters().states_accepted, 5u) << "the first, and of these all but the one at 40 ms";
+}
+
+// A metre in 10 ms is a leap; in 2 s it is none.
+TEST_F(AgentRegistryRoundTest, ALeapFromTheStateInForceIsSeenThoughItCouldHaveWalked) {
+  Join();
+  Hear(10, 1);
+  Hear(2000, 1);
+  EXPECT_EQ(BreachesOfRound(), 1u);
+  Hear(2010, 1);
+  Hear(4000, 0);
+  EXPECT_EQ(BreachesOfRound(), 0u);
+}
+
+TEST_F(AgentRegistryRoundTest, ALeapThatIsDeclaredIsNoBreach) {
+  Join();
+  Hear(10, 0);
+  Hear(20, 100, true);
+  Hear(30, 100);
+  EXPECT_EQ(BreachesOfRound(), 0u);
+  EXPECT_EQ(detector.counters().jumps, 1u);
+}
+
 class AgentRegistryWallTest : public AgentRegistryTest {
  protected:
   AgentRegistryWallTest() : AgentRegistryTest(v1::Clock::REAL_TIME) {}

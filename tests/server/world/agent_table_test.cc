@@ -77,7 +77,7 @@ TEST(AgentTable, KnowsUntilWhenAllAgentsAreClear) {
 TEST(AgentTable, WhatASampleDoesNotSayMarksNothing) {
   AgentTable table = Table();
   EXPECT_EQ(table.RecordState(70, 3, 12), StateOrder::kNew);
-  table.SetWaiting(5, {.generation = 1, .sequence = 1, .state = {}});
+  table.SetWaiting(5, {.generation = 1, .sequence = 1, .state = {}}, AgentTable::Former::kReplaced);
   table.Add(6, Described(1));
   EXPECT_EQ(table.clearances().TakeChanged(0, 0, {}), Chunks{});
   table.Validate();
@@ -109,13 +109,14 @@ TEST(AgentTable, StatesAreNewOnceAndNeverAfterTheirGeneration) {
 TEST(AgentTable, RemovalEndsWhatWaitsForTheSameGeneration) {
   for (const std::uint32_t generation : {3u, 4u}) {
     AgentTable table = Table();
-    table.SetWaiting(70, {.generation = generation, .sequence = 1, .state = {}});
+    table.SetWaiting(70, {.generation = generation, .sequence = 1, .state = {}},
+                     AgentTable::Former::kReplaced);
     table.Remove(70);
     EXPECT_EQ(table.Waiting(70) != nullptr, generation == 4);
     table.Validate();
   }
   AgentTable table;
-  table.SetWaiting(1, {.generation = 8, .sequence = 1, .state = {}});
+  table.SetWaiting(1, {.generation = 8, .sequence = 1, .state = {}}, AgentTable::Former::kReplaced);
   table.RemoveWaiting(1);
   EXPECT_EQ(table.Waiting(1), nullptr);
   EXPECT_TRUE(table.HasEnded(1, 8));
@@ -123,7 +124,8 @@ TEST(AgentTable, RemovalEndsWhatWaitsForTheSameGeneration) {
 
 TEST(AgentTable, ANewRunMarksEveryUsedSlot) {
   AgentTable table = Table();
-  table.SetWaiting(200, {.generation = 1, .sequence = 1, .state = {}});
+  table.SetWaiting(200, {.generation = 1, .sequence = 1, .state = {}},
+                   AgentTable::Former::kReplaced);
   EXPECT_THROW(table.Clear(), CheckFailure);
   table.Remove(70);
   table.Clear();
@@ -137,7 +139,8 @@ TEST(AgentTable, AnExpelledAgentKeepsItsDescriptionAndWaitsForItsNextState) {
   table.RecordState(70, 3, 1);
   table.Admit(70, At(1), 1);
   static_cast<void>(table.clearances().TakeChanged(0, 0, {}));
-  table.SetWaiting(70, {.generation = 3, .sequence = 2, .state = {}});
+  table.SetWaiting(70, {.generation = 3, .sequence = 2, .state = {}},
+                   AgentTable::Former::kReplaced);
   table.Expel(70);
   ASSERT_NE(table.Find(70), nullptr);
   EXPECT_FALSE(table.Find(70)->admitted());
@@ -152,7 +155,7 @@ TEST(AgentTable, AnExpelledAgentKeepsItsDescriptionAndWaitsForItsNextState) {
 
 TEST(AgentTable, AStateThatWaitsIsDroppedAndItsGenerationGoesOn) {
   AgentTable table = Table();
-  table.SetWaiting(5, {.generation = 2, .sequence = 1, .state = {}});
+  table.SetWaiting(5, {.generation = 2, .sequence = 1, .state = {}}, AgentTable::Former::kReplaced);
   table.DropWaiting(5);
   table.DropWaiting(6);
   EXPECT_EQ(table.Waiting(5), nullptr);
@@ -187,32 +190,31 @@ TEST(AgentTable, ARevisionCountsAtTheLatestFromTheAdmissionOn) {
   EXPECT_EQ(table.Find(5)->acknowledged_from(), Instant::Always());
 }
 
-TEST(AgentTable, AJumpWaitsBeforeTheNewestStateUpToABound) {
+TEST(AgentTable, StatesThatCountWaitBeforeTheNewestOneUpToABound) {
   AgentTable table;
   table.Add(5, {1, 1, {}});
-  const auto set = [&](std::uint64_t sequence, bool jumps) {
-    motion::MotionState state;
-    state.discontinuity = jumps;
-    table.SetWaiting(5, {.generation = 1, .sequence = sequence, .state = state});
+  const auto set = [&](std::uint64_t sequence, bool former_counts) {
+    table.SetWaiting(5, {.generation = 1, .sequence = sequence, .state = {}},
+                     former_counts ? AgentTable::Former::kWaitsOn : AgentTable::Former::kReplaced);
   };
   const auto taken = [&] {
     std::vector<std::uint64_t> sequences;
     for (const WaitingState& one : table.TakeWaiting(5)) sequences.push_back(one.sequence);
     return sequences;
   };
-  set(1, true);
-  set(2, false);
+  set(1, false);
+  set(2, true);
   EXPECT_EQ(taken(), std::vector<std::uint64_t>{2}) << "it is not admitted";
   table.Admit(5, {}, 2);
-  set(3, true);
-  set(4, false);
+  set(3, false);
+  set(4, true);
   set(5, false);
-  set(6, true);
-  set(7, false);
+  set(6, false);
+  set(7, true);
   EXPECT_EQ(taken(), (std::vector<std::uint64_t>{3, 6, 7}));
   for (std::uint64_t sequence = 10; sequence < 200; ++sequence) set(sequence, true);
   const std::vector<std::uint64_t> all = taken();
-  EXPECT_EQ(all.size(), kJumpsWaitingMax + 1);
+  EXPECT_EQ(all.size(), kWaitingBeforeMax + 1);
   EXPECT_EQ(all.back(), 199u);
 }
 

@@ -81,7 +81,7 @@ TEST(World, ALowerRunIsOldAndAHigherOneStartsAnew) {
   const Claim higher = world.ClaimFor(1, 10, 6, nullptr);
   EXPECT_TRUE(higher.accepted);
   EXPECT_TRUE(higher.new_run);
-  higher.simulator->agents().SetWaiting(70, {});
+  higher.simulator->agents().SetWaiting(70, {}, AgentTable::Former::kReplaced);
   higher.simulator->StartRun(10, 6);
   EXPECT_EQ(higher.simulator->agents().Waiting(70), nullptr);
   EXPECT_EQ(higher.simulator->run(), 6u);

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
 
 namespace collision::client {
 namespace {
@@ -14,12 +17,33 @@ TEST(AgentTable, AJumpSurvivesALaterStagedState) {
   AgentTable table("simulator", 1, 1, 1, {});
   const AgentId ball = table.Add({.name = "ball"}, {.stamp_ns = 0});
   EXPECT_FALSE(table.TakeDue(0).at(0).states(0).discontinuity());
-  table.Stage(ball, {.stamp_ns = 1, .discontinuity = true});
+  table.Stage(ball, {.stamp_ns = 1, .position_m = {51, 0, 0}, .discontinuity = true});
   table.Stage(ball, {.stamp_ns = 2, .position_m = {51, 0, 0}});
   EXPECT_TRUE(table.TakeDue(1).empty());
   const v1::AgentState sent = table.TakeDue(2).at(0).states(0);
   EXPECT_EQ(sent.position_m().x(), 51);
   EXPECT_TRUE(sent.discontinuity());
+}
+
+// Each of two agents has been where it cannot have been, a hundred times.
+TEST(AgentTable, ASampleCarriesTheNewestOfTheStatesThatCount) {
+  AgentTable table("simulator", 1, 1, 1, {});
+  std::vector<AgentId> agents;
+  for (const char* name : {"a", "b"}) agents.push_back(table.Add({.name = name}, {.stamp_ns = 0}));
+  v1::AgentStates sample;
+  for (int k = 1; k <= 100; ++k) {
+    for (const AgentId& agent : agents) {
+      table.Stage(agent, {.stamp_ns = k, .position_m = {5.0 * k, 0, 0}});
+    }
+    sample = table.TakeDue(k).at(0);
+  }
+  ASSERT_EQ(sample.states_size(), 66);
+  std::array<std::uint64_t, 2> newest{};
+  for (const v1::AgentState& state : sample.states()) {
+    EXPECT_GT(state.sequence(), 200u - 66);
+    EXPECT_GT(state.sequence(), std::exchange(newest[state.slot()], state.sequence()));
+  }
+  EXPECT_EQ(newest, (std::array<std::uint64_t, 2>{199, 200}));
 }
 
 // Lock-step: a removed agent's last states stand until the round is over, which may take several

@@ -24,7 +24,16 @@ class OutgoingStatesTest : public testing::Test {
   void Stage(const State& state) { states_.Stage(state, {.acceleration_max_m_s2 = 1}, policy_); }
 
   /// Sends the staged state as number `sequence`.
-  void Send(std::uint64_t sequence) { states_.MarkSent(sequence, kRevision, policy_); }
+  void Send(std::uint64_t sequence) {
+    --sequence;
+    states_.MarkSent(&sequence, kRevision);
+  }
+
+  std::vector<std::uint64_t> Carried() const {
+    std::vector<std::uint64_t> sequences;
+    for (const OutgoingStates::Carried& one : states_.carried()) sequences.push_back(one.sequence);
+    return sequences;
+  }
 
   /// The service wants a state at `wanted_ns`, and has taken the states up to `acknowledged`.
   void Answer(std::int64_t wanted_ns, std::uint64_t acknowledged) {
@@ -78,33 +87,80 @@ TEST_F(OutgoingStatesTest, JumpsAreCarriedUntilTheyAreAcknowledged) {
     Stage(state);
     Send(sequence);
   }
-  const auto carried = [&] {
-    std::vector<std::uint64_t> sequences;
-    for (const OutgoingStates::Jump& jump : states_.jumps()) sequences.push_back(jump.sequence);
-    return sequences;
-  };
-  EXPECT_EQ(carried(), (std::vector<std::uint64_t>{2, 4}));
+  EXPECT_EQ(Carried(), (std::vector<std::uint64_t>{2, 4}));
   Answer(kNever, 3);
-  EXPECT_EQ(carried(), std::vector<std::uint64_t>{4});
+  EXPECT_EQ(Carried(), std::vector<std::uint64_t>{4});
   Answer(kNever, 5);
   Stage(DriftingAt(6 * kSecond));
   Send(6);
-  EXPECT_EQ(carried(), std::vector<std::uint64_t>{});
+  EXPECT_EQ(Carried(), std::vector<std::uint64_t>{});
 }
 
-TEST_F(OutgoingStatesTest, OfMoreJumpsThanFitTheNewestAreCarried) {
-  for (const std::uint32_t chunk_size : {1u, 64u}) {
-    policy_.chunk_size = chunk_size;
-    states_ = {};
-    for (std::uint64_t sequence = 1; sequence <= 100; ++sequence) {
-      State jump = DriftingAt(static_cast<std::int64_t>(sequence) * kSecond);
-      jump.discontinuity = true;
-      Stage(jump);
-      Send(sequence);
-    }
-    EXPECT_EQ(states_.jumps().size(), 64 / chunk_size);
-    EXPECT_EQ(states_.jumps().back().sequence, 99u);
+TEST_F(OutgoingStatesTest, OfMoreStatesThanTheBoundTheNewestAreCarried) {
+  for (std::uint64_t sequence = 1; sequence <= 100; ++sequence) {
+    State jump = DriftingAt(static_cast<std::int64_t>(sequence) * kSecond);
+    jump.discontinuity = true;
+    Stage(jump);
+    Send(sequence);
   }
+  EXPECT_EQ(states_.carried().size(), kCarriedMax);
+  EXPECT_EQ(states_.carried().back().sequence, 99u);
+}
+
+// At 2 s it is 100 m away, and at 3 s it has returned.
+TEST_F(OutgoingStatesTest, BothEndsOfAMotionThatBreaksTheBoundsAreCarried) {
+  for (std::uint64_t sequence = 1; sequence <= 5; ++sequence) {
+    State state = DriftingAt(static_cast<std::int64_t>(sequence) * kSecond);
+    if (sequence == 3) state.position_m[1] = 100;
+    Stage(state);
+    Send(sequence);
+  }
+  EXPECT_EQ(Carried(), (std::vector<std::uint64_t>{2, 3, 4}));
+  Answer(kNever, 3);
+  EXPECT_EQ(Carried(), std::vector<std::uint64_t>{4});
+}
+
+// The state sent stands in for each of the three that follow: they are in its promise, which is
+// wide by then. The third cannot be where it is if the second was where it was.
+TEST_F(OutgoingStatesTest, StatesThatBelieTheOneBeforeAreSentWithTheNext) {
+  Stage(DriftingAt(0));
+  Send(1);
+  Answer(kNever, 1);
+  Stage(DriftingAt(8 * kSecond));
+  EXPECT_FALSE(IsDue(8 * kSecond));
+  State away = DriftingAt(9 * kSecond);
+  away.position_m[1] = 10;
+  Stage(away);
+  EXPECT_TRUE(IsDue(9 * kSecond));
+  Stage(DriftingAt(10 * kSecond));
+  EXPECT_TRUE(IsDue(10 * kSecond));
+  std::uint64_t sequence = 1;
+  states_.MarkSent(&sequence, kRevision);
+  EXPECT_EQ(sequence, 4u);
+  EXPECT_EQ(Carried(), (std::vector<std::uint64_t>{2, 3}));
+  EXPECT_EQ(states_.carried()[0].state.stamp_ns, 8 * kSecond);
+  EXPECT_EQ(states_.carried()[1].state.position_m, away.position_m);
+  EXPECT_EQ(states_.sent()->stamp_ns, 10 * kSecond);
+}
+
+// The jump at 2 s is told by itself: with the state at 3 s, which does not follow from it, it could
+// not be told that.
+TEST_F(OutgoingStatesTest, AJumpThatIsBeliedAtOnceStaysAJump) {
+  Stage(DriftingAt(kSecond));
+  Send(1);
+  Answer(kNever, 1);
+  State jump = DriftingAt(2 * kSecond);
+  jump.position_m[1] = 100;
+  jump.discontinuity = true;
+  Stage(jump);
+  Stage(DriftingAt(3 * kSecond));
+  EXPECT_TRUE(states_.StagedJumps());
+  EXPECT_FALSE(states_.staged()->discontinuity);
+  std::uint64_t sequence = 1;
+  states_.MarkSent(&sequence, kRevision);
+  EXPECT_EQ(Carried(), std::vector<std::uint64_t>{2});
+  EXPECT_TRUE(states_.carried()[0].state.discontinuity);
+  EXPECT_EQ(states_.JumpOnItsWay(3 * kSecond), 2 * kSecond);
 }
 
 TEST_F(OutgoingStatesTest, AStampBeforeTheLastOneSentIsRefused) {

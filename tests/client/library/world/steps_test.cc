@@ -22,10 +22,12 @@ class StepsTest : public testing::Test {
     return {.name = "ball", .radius_m = 0.5, .acceleration_max_m_s2 = 2};
   }
 
+  /// Known to 100 m, so that nothing that a test does with it breaks a bound.
   static State At(std::int64_t stamp_ns, double x = 0) {
     State state;
     state.stamp_ns = stamp_ns;
     state.position_m = {x, 0, 0};
+    state.position_error_m = 100;
     return state;
   }
 
