@@ -57,8 +57,9 @@ double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * (static_cast<double>(to_ns) - static_cast<double>(from_ns));
 }
 
-/// The centre of its ball `s` seconds after its stamp.
-Eigen::Vector3d CentreAfter(double s, const v1::AgentState& state) {
+/// The centre of its ball.
+Eigen::Vector3d CentreAt(std::int64_t ns, const v1::AgentState& state) {
+  const double s = Seconds(state.stamp_ns(), ns);
   return ToCore(state.position_m()) + s * ToCore(state.velocity_m_s()) +
          0.5 * s * s * ToCore(state.acceleration_m_s2());
 }
@@ -67,13 +68,14 @@ BoundReport BoundOf(const AgentView& agent, const PairReport& report, const Worl
   BoundReport bound{.agent = agent,
                     .name = view.FullName(IdOf(agent)),
                     .unusable = Unusable(agent),
-                    .now = {},
+                    .first = {},
                     .at_earliest = {},
                     .fresh = {}};
   if (!bound.unusable.empty()) return bound;
   bound.age = Seconds(agent.state->stamp_ns(), report.now_ns);
   if (agent.description.has_half_space()) return bound;
-  bound.now = ReachAfter(std::max(0.0, bound.age), report.skew, agent.description, *agent.state);
+  bound.first = ReachAfter(Seconds(agent.state->stamp_ns(), report.from_ns), report.skew,
+                           agent.description, *agent.state);
   return bound;
 }
 
@@ -142,21 +144,21 @@ struct Meeting {
   Instant earliest;
 };
 
-Meeting MeetingOfBalls(const PairReport& report, double margin, Instant now) {
+Meeting MeetingOfBalls(const PairReport& report, double margin, Instant from) {
   const motion::SpaceTimeBound a = ToCore(report.a, report.skew);
   const motion::SpaceTimeBound b = ToCore(report.b, report.skew);
-  const double distance = (CentreAfter(report.a.age, *report.a.agent.state) -
-                           CentreAfter(report.b.age, *report.b.agent.state))
+  const double distance = (CentreAt(report.from_ns, *report.a.agent.state) -
+                           CentreAt(report.from_ns, *report.b.agent.state))
                               .norm();
   return {distance,
-          intersection::EarliestIntersection(a, b, now, Instant::Never(), margin).instant()};
+          intersection::EarliestIntersection(a, b, from, Instant::Never(), margin).instant()};
 }
 
 Meeting MeetingOf(const v1::HalfSpace& told, const BoundReport& agent, const PairReport& report,
-                  double margin, Instant now) {
+                  double margin, Instant from) {
   const broad_phase::HalfSpace half_space{ToCore(told.normal()), told.offset_m()};
-  const intersection::BroadQuery query{intersection::BoundKind::kHorn, now, Instant::Never()};
-  const Eigen::Vector3d centre = CentreAfter(agent.age, *agent.agent.state);
+  const intersection::BroadQuery query{intersection::BoundKind::kHorn, from, Instant::Never()};
+  const Eigen::Vector3d centre = CentreAt(report.from_ns, *agent.agent.state);
   return {
       half_space.normal.dot(centre) - half_space.offset,
       EarliestIntersectionOf(query, half_space, {ToCore(agent, report.skew)}, margin).instant()};
@@ -170,14 +172,14 @@ void Meet(PairReport* report) {
     return report->apart.push_back("both are half-spaces");
   }
   const double margin = of_a.margin_m() + of_b.margin_m();
-  const Instant now = Instant::FromNanoseconds(report->now_ns);
+  const Instant from = Instant::FromNanoseconds(report->from_ns);
   const auto [distance, earliest] =
-      of_a.has_half_space()   ? MeetingOf(of_a.half_space(), report->b, *report, margin, now)
-      : of_b.has_half_space() ? MeetingOf(of_b.half_space(), report->a, *report, margin, now)
-                              : MeetingOfBalls(*report, margin, now);
+      of_a.has_half_space()   ? MeetingOf(of_a.half_space(), report->b, *report, margin, from)
+      : of_b.has_half_space() ? MeetingOf(of_b.half_space(), report->a, *report, margin, from)
+                              : MeetingOfBalls(*report, margin, from);
   report->distance = distance;
-  report->gap = distance - of_a.radius_m() - of_b.radius_m() - margin - report->a.now.Sum() -
-                report->b.now.Sum();
+  report->gap = distance - of_a.radius_m() - of_b.radius_m() - margin - report->a.first.Sum() -
+                report->b.first.Sum();
   report->earliest_ns = earliest.nanoseconds();
   if (NeverMoves(ToCore(report->a, report->skew)) && NeverMoves(ToCore(report->b, report->skew))) {
     report->apart.push_back("neither can move");
@@ -214,6 +216,11 @@ PairReport ReportOn(const AgentView& a, const AgentView& b,
                     const std::optional<v1::CollisionEvent>& event, const WorldView& view) {
   PairReport report;
   report.now_ns = view.status()->now_ns();
+  report.from_ns = report.now_ns;
+  for (const AgentView* agent : {&a, &b}) {
+    if (!Unusable(*agent).empty()) continue;
+    report.from_ns = std::max<std::int64_t>(report.from_ns, agent->state->stamp_ns());
+  }
   report.skew = 1e-9 * static_cast<double>(view.skew_max_ns());
   report.event = event;
   report.a = BoundOf(a, report, view);

@@ -28,7 +28,7 @@ struct BoundReport {
   std::string name;      ///< With its simulator.
   std::string unusable;  ///< Why nothing can be computed of it; empty: all below is.
   double age = 0;        ///< Of its state [s]; negative: it lies ahead.
-  Reach now;             ///< Now, or at its stamp, if that is later.
+  Reach first;           ///< At the report's `from_ns`.
   Reach at_earliest;     ///< When the pair can meet, if it can.
   Reach fresh;           ///< Likewise, had it a state of now.
 };
@@ -36,11 +36,13 @@ struct BoundReport {
 /// Why the pair meets when it does, or never.
 struct PairReport {
   std::int64_t now_ns = 0;
+  /// Now, or the newest stamp of the two, if that is later: from here on both states hold.
+  std::int64_t from_ns = 0;
   double skew = 0;  ///< κ of the service [s].
   BoundReport a, b;
-  double distance = 0;  ///< Of the reference points now [m].
+  double distance = 0;  ///< Of the reference points at `from_ns` [m].
   double gap = 0;       ///< What both balls leave of it; negative: they overlap [m].
-  /// Not before this, as follows from both states; kNever: never; nullopt: one is not usable.
+  /// From `from_ns` on not before this, as follows from both states; kNever: never; nullopt: one is not usable.
   std::optional<std::int64_t> earliest_ns;
   std::vector<std::string> apart;           ///< Why the two are not looked at; empty: they are.
   std::vector<std::string> not_told;        ///< What else may keep them apart: the service's.

@@ -116,6 +116,18 @@ std::string ReachText(const Reach& reach) {
   return NumberText(reach.Sum(), "%.3g") + " m" + terms;
 }
 
+/// "now", or "at 12.500 s" where a state lies ahead of now.
+std::string FromText(const PairReport& report) {
+  return report.from_ns == report.now_ns ? "now" : "at " + SinceText(report.from_ns);
+}
+
+/// What is not in the report where a state lies ahead of now.
+std::string AheadText(const PairReport& report) {
+  if (report.from_ns == report.now_ns) return "";
+  return "; a state lies ahead of now: what was told of the time before " +
+         SinceText(report.from_ns) + " is not looked at";
+}
+
 Rows AgentRows(const PairReport& report) {
   Rows rows = {{"", report.a.name, report.b.name}};
   Add(
@@ -131,7 +143,7 @@ Rows AgentRows(const PairReport& report) {
         },
         &rows);
   };
-  reach("reach now", &BoundReport::now);
+  reach("reach " + FromText(report), &BoundReport::first);
   if (report.earliest_ns && *report.earliest_ns != kNever) {
     reach("reach at the earliest", &BoundReport::at_earliest);
   }
@@ -182,7 +194,7 @@ std::string BoundJson(const BoundReport& bound, bool they_meet, const WorldView&
   JsonObject object;
   object.Add("agent", AgentJson(bound.agent, view)).TextOrNull("unusable", bound.unusable);
   object.Number("age_s", usable ? bound.age : std::numeric_limits<double>::quiet_NaN());
-  return object.Add("reach_now", usable ? ReachJson(bound.now) : "null")
+  return object.Add("reach_at_from", usable ? ReachJson(bound.first) : "null")
       .Add("reach_at_earliest", usable && they_meet ? ReachJson(bound.at_earliest) : "null")
       .Json();
 }
@@ -194,12 +206,12 @@ std::string WhyPage(const PairReport& report, const WorldView& view) {
   if (report.earliest_ns) {
     page +=
         Line("distance", NumberText(report.distance, "%.6g") + " m between " + PlacesText(report) +
-                             ", " + MetresText(report.gap, Rounding::kDown) +
+                              " " + FromText(report) + ", " + MetresText(report.gap, Rounding::kDown) +
                              " m between all that they can reach");
     page += Line("earliest", *report.earliest_ns == kNever
-                                 ? "never, from these bounds"
+                                 ? "never, from these bounds" + AheadText(report)
                                  : "not before " + InstantText(*report.earliest_ns, 0, 6) +
-                                       ", from these bounds");
+                                       ", from these bounds" + AheadText(report));
   }
   page += Line("apart", report.apart.empty() ? "nothing that they declare" : Joined(report.apart));
   if (!report.not_told.empty()) {
@@ -214,6 +226,7 @@ std::string WhyJson(const PairReport& report, const WorldView& view) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   JsonObject document = JsonDocument("why");
   document.Instant("now", report.now_ns)
+      .Instant("from", report.from_ns)
       .Number("skew_s", report.skew)
       .Add("a", BoundJson(report.a, they_meet, view))
       .Add("b", BoundJson(report.b, they_meet, view))

@@ -89,6 +89,21 @@ TEST_F(WhyTest, AHalfSpaceIsMetWhereItsPlaneIs) {
   EXPECT_NE(page.find("all x with (-1, 0, 0) · x <= -20 m"), std::string::npos) << page;
 }
 
+// Bob is told of 15 s ahead, when Ada has passed the place.
+TEST_F(WhyTest, WhereAStateLiesAheadItIsSaidFromWhenOnTheAnswerHolds) {
+  StateOf(1)->set_stamp_ns(kNow + 15 * kSecond);
+  const PairReport report = Report();
+  EXPECT_EQ(report.from_ns, kNow + 15 * kSecond);
+  EXPECT_NEAR(report.distance, 4, 1e-9);
+  EXPECT_EQ(report.earliest_ns, kNever);
+  const std::string page = WhyPage(report, view_);
+  EXPECT_NE(page.find("m between the reference points at 27.345 s"), std::string::npos) << page;
+  EXPECT_NE(page.find("never, from these bounds; a state lies ahead of now: what was told of the "
+                      "time before 27.345 s is not looked at"),
+            std::string::npos)
+      << page;
+}
+
 TEST_F(WhyTest, MarginsCount) {
   Of(0)->set_margin_m(2);
   Of(1)->set_margin_m(3);
@@ -128,7 +143,7 @@ TEST_F(WhyTest, AnOldStateIsWhatWouldHelpMost) {
   Of(1)->set_acceleration_max_m_s2(2);
   StateOf(1)->set_stamp_ns(kNow - 3 * kSecond);
   const PairReport report = Report();
-  EXPECT_EQ(report.b.now.acceleration, 9);
+  EXPECT_EQ(report.b.first.acceleration, 9);
   EXPECT_EQ(report.b.age, 3);
   EXPECT_TRUE(AdviceOn(report).starts_with(
       "a newer state of bob (sim): its last is 3 s old; that makes up "))
@@ -251,7 +266,7 @@ TEST_F(WhyTest, ThePageAndItsJsonSayAll) {
   for (const char* part :
        {"ada (sim)", "ball of 0.5 m", "D 2 m/s², J 0 m/s³", "3.000 s old, at 9.345 s", "reach now ",
         "9 m: acceleration 9", "reach at the earliest",
-        "distance     11 m between the reference points, 1 m between all that they can reach\n",
+        "distance     11 m between the reference points now, 1 m between all that they can reach\n",
         "earliest     not before 12.", "apart        nothing that they declare\n",
         "event        none\n", "narrower by  a newer state of bob (sim)"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
