@@ -248,8 +248,8 @@ struct Event {
   std::uint32_t tree_level = 0;  ///< Depth of the sphere trees that decided it; 0: balls.
   std::uint64_t work_units = 0;  ///< Spent on this contact so far.
   EventLimit limited_by = EventLimit::kNone;
-  /// The service removed an agent of the pair: "silent", "evicted", "restarted" or "refused"; else
-  /// empty.
+  /// An agent of the pair is gone: it has "left", or the service removed it: "silent", "evicted",
+  /// "restarted" or "refused"; else empty.
   std::string because;
   /// One of the two is a hypothetical agent of this simulator: nobody else hears of it, and in
   /// truth nothing touches. It has no contacts_sequence, whatever its status.

@@ -28,9 +28,9 @@ class Writer {
       case EventStatus::kUndecided:
         return Undecided();
       case EventStatus::kWithdrawn:
-        return "could have touched" + From() + ", which is withdrawn" + Reason(true);
+        return "could have touched" + From() + ", which is withdrawn" + Reason();
       case EventStatus::kEnded:
-        return Begin() + Place() + Speed() + End() + Reason(false);
+        return Begin() + Place() + Speed() + End() + Reason();
     }
     return "have an event of an unknown kind";
   }
@@ -203,14 +203,14 @@ class Writer {
     return text;
   }
 
-  /// Why an agent of the pair is gone. `left`: it has left if nothing else is said.
-  std::string Reason(bool left) const {
+  /// Why an agent of the pair is gone.
+  std::string Reason() const {
     if (event_.because == "silent")
       return ", since the service removed a simulator that was silent";
     if (event_.because == "evicted") return ", since an operator evicted a simulator";
     if (event_.because == "restarted") return ", since time began anew";
     if (event_.because == "refused") return ", since the service refused a simulator";
-    return left ? ", since one of them left" : "";
+    return event_.because == "left" ? ", since one of them left" : "";
   }
 
   const Event& event_;

@@ -1,16 +1,18 @@
-// Why an event ended, where the service itself ended it.
+// Why an event ended, where it did not end by what the agents' motion tells.
 #pragma once
 
 #include "idl/messages.pb.h"
-#include "server/world/silence/ended_runs.h"
 
 namespace collision::server {
 
-/// The key of the extension that an event then carries; its value is that of NameOf(EndCause).
+class World;
+
+/// The key of the extension that an event then carries. Its value is that of NameOf(EndCause),
+/// where the service has ended the run of an agent; "left", where an agent has been removed.
 inline constexpr char kBecause[] = "because";
 
-/// Adds the extension to a final revision about an agent whose run the service has ended. An event
-/// of any other agent stays as it is, bit for bit.
-void AddBecause(const EndedRuns& ended, v1::CollisionEvent* event);
+/// Adds the extension to a final revision about an agent that is gone, unless the contact has ended
+/// before that. An event of any other agent stays as it is, bit for bit.
+void AddBecause(const World& world, v1::CollisionEvent* event);
 
 }  // namespace collision::server

@@ -132,7 +132,7 @@ Instant Publisher::WantedAt(const Clearances& clearances, std::uint32_t slot, In
 v1::CollisionEvent Publisher::EncodeOf(const detection::CollisionEvent& event, const World& world,
                                        const Stream& stream) const {
   v1::CollisionEvent wire = Encode(event);
-  AddBecause(world.ended_runs(), &wire);
+  AddBecause(world, &wire);
   wire.set_level(stream.level);
   wire.set_pair_slot(event.pair_slot * static_cast<std::uint32_t>(streams_.size()) + stream.index);
   return wire;

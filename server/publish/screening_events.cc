@@ -79,7 +79,7 @@ std::optional<v1::ScreeningEvent> ScreeningEvents::MessageOf(const detection::Co
   message.set_run(agent.run);
   if (!Address(world, &message)) return std::nullopt;
   *message.mutable_event() = Encode(event);
-  AddBecause(world.ended_runs(), message.mutable_event());
+  AddBecause(world, message.mutable_event());
   AddLabels(labels_.Of(event), message.mutable_event());
   return message;
 }

@@ -15,7 +15,7 @@
 #include "server/bus/clock.h"
 #include "server/codec/codec.h"
 #include "server/quotas/simulator_quotas.h"
-#include "server/world/departed_labels.h"
+#include "server/world/departed_agents.h"
 #include "server/world/silence.h"
 #include "server/world/silence/ended_runs.h"
 #include "server/world/simulator.h"
@@ -125,7 +125,8 @@ class World {
 
   /// What this agent is called, or was before it left; null: not known any more.
   std::shared_ptr<const v1::AgentLabel> LabelOf(const detection::AgentId& id) const;
-  DepartedLabels& departed() { return departed_; }
+  DepartedAgents& departed() { return departed_; }
+  const DepartedAgents& departed() const { return departed_; }
 
   /// Who is silent, stands or is missing, and what follows.
   Silence& silence() { return silence_; }
@@ -308,7 +309,7 @@ class World {
   SimulatorQuotas quotas_;
   Silence silence_;
   EndedRuns ended_runs_;
-  DepartedLabels departed_;
+  DepartedAgents departed_;
   std::uint32_t epoch_ = 1;
   bool started_ = false;
   Instant now_;

@@ -246,7 +246,8 @@ class PairJudge {
       Fail(&result_.wrong_brackets,
            "begin " + std::to_string(found->begin_ns) + " ns is not in the bracket");
     }
-    if (event.status != EventStatus::kEnded || !event.because.empty()) return;
+    const bool by_service = !event.because.empty() && event.because != "left";
+    if (event.status != EventStatus::kEnded || by_service) return;
     const auto ends = [&](const BallContact& contact) {
       return contact.end_ns >= found->begin_ns &&
              (!contact.ends_in_motion || Holds(event.end, contact.end_ns));

@@ -21,8 +21,8 @@ struct Golden {
   v1::Config::TreeBuilder builder;
   std::uint64_t hash;
 };
-constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0x5d9ad56cd34204f1},
-                              {v1::Config::FITTED, 0xf52e04d35e9b8746}};
+constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0x8ee9be37c3e9d511},
+                              {v1::Config::FITTED, 0xe026e864ed59c87e}};
 
 constexpr std::int64_t kEnd = 8 * kSecond;
 

@@ -134,9 +134,9 @@ TEST(EventSentence, OfOneThatCameToNothing) {
   Expect(event, kSecond, "will not touch, which had been possible from 4.19 s.");
   Expect(event, 5 * kSecond, "did not touch, which had been possible from 4.19 s.");
   event.status = EventStatus::kWithdrawn;
-  Expect(event, 5 * kSecond,
-         "could have touched from 4.19 s, which is withdrawn, since one of them left.");
-  for (const auto& [because, text] : {std::pair("evicted", "an operator evicted a simulator"),
+  Expect(event, 5 * kSecond, "could have touched from 4.19 s, which is withdrawn.");
+  for (const auto& [because, text] : {std::pair("left", "one of them left"),
+                                      {"evicted", "an operator evicted a simulator"},
                                       {"restarted", "time began anew"},
                                       {"refused", "the service refused a simulator"}}) {
     event.because = because;

@@ -42,8 +42,8 @@ TEST(EventLabels, StayUntilTheSlotIsUsedAgain) {
   EXPECT_EQ(labels.Of(Event(1, 3)).lower, nullptr);
 }
 
-TEST(DepartedLabels, AreForgottenInTheOrderOfTheirTimes) {
-  DepartedLabels departed;
+TEST(DepartedAgents, AreForgottenInTheOrderOfTheirTimes) {
+  DepartedAgents departed;
   const detection::AgentId early = Event(1, 2).lower, late = Event(1, 2).higher;
   departed.Add(late, Label("late"), Instant::FromNanoseconds(20));
   departed.Add(early, Label("early"), Instant::FromNanoseconds(10));

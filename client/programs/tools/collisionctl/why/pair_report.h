@@ -42,7 +42,8 @@ struct PairReport {
   BoundReport a, b;
   double distance = 0;  ///< Of the reference points at `from_ns` [m].
   double gap = 0;       ///< What both balls leave of it; negative: they overlap [m].
-  /// From `from_ns` on not before this, as follows from both states; kNever: never; nullopt: one is not usable.
+  /// From `from_ns` on not before this, as follows from both states; kNever: never; nullopt: one is
+  /// not usable.
   std::optional<std::int64_t> earliest_ns;
   std::vector<std::string> apart;           ///< Why the two are not looked at; empty: they are.
   std::vector<std::string> not_told;        ///< What else may keep them apart: the service's.

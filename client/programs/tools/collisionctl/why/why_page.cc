@@ -204,10 +204,10 @@ std::string BoundJson(const BoundReport& bound, bool they_meet, const WorldView&
 std::string WhyPage(const PairReport& report, const WorldView& view) {
   std::string page = Table(AgentRows(report)) + "\n" + Line("now", SinceText(report.now_ns));
   if (report.earliest_ns) {
-    page +=
-        Line("distance", NumberText(report.distance, "%.6g") + " m between " + PlacesText(report) +
-                              " " + FromText(report) + ", " + MetresText(report.gap, Rounding::kDown) +
-                             " m between all that they can reach");
+    page += Line("distance", NumberText(report.distance, "%.6g") + " m between " +
+                                 PlacesText(report) + " " + FromText(report) + ", " +
+                                 MetresText(report.gap, Rounding::kDown) +
+                                 " m between all that they can reach");
     page += Line("earliest", *report.earliest_ns == kNever
                                  ? "never, from these bounds" + AheadText(report)
                                  : "not before " + InstantText(*report.earliest_ns, 0, 6) +

@@ -1,9 +1,10 @@
-// What agents were called that have just left.
+// Agents that have just left.
 #pragma once
 
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -14,8 +15,9 @@
 namespace collision::server {
 
 /// An agent that is removed stays in the detector up to the time that its owner has told, and may
-/// meet others there: until then its label is kept for the events. One thread.
-class DepartedLabels {
+/// meet others there: until then it is known here, for the events: its label, and that it has left.
+/// One thread.
+class DepartedAgents {
  public:
   /// More are not kept; what they still meet is then told without their names, unless it was told
   /// as possible before.
@@ -24,31 +26,43 @@ class DepartedLabels {
   /// The agent is told of up to `until`.
   void Add(const detection::AgentId& id, const std::shared_ptr<const v1::AgentLabel>& label,
            Instant until) {
-    if (labels_.size() >= kDepartedMax) return;
-    if (labels_.try_emplace(id, label).second) queue_.emplace(until, id);
+    if (departed_.size() >= kDepartedMax) return;
+    if (departed_.try_emplace(id, Departed{label, until}).second) queue_.emplace(until, id);
+  }
+
+  /// Up to when the agent is told of; nullopt: it has not left, or that is not kept.
+  std::optional<Instant> ToldUntil(const detection::AgentId& id) const {
+    const auto found = departed_.find(id);
+    if (found == departed_.end()) return std::nullopt;
+    return found->second.told_until;
   }
 
   /// Null: it is not kept.
   std::shared_ptr<const v1::AgentLabel> Find(const detection::AgentId& id) const {
-    const auto found = labels_.find(id);
-    return found != labels_.end() ? found->second : nullptr;
+    const auto found = departed_.find(id);
+    return found != departed_.end() ? found->second.label : nullptr;
   }
 
   /// All events up to and including this time have been found.
   void ForgetUntil(Instant now) {
     while (!queue_.empty() && queue_.begin()->first <= now) {
-      labels_.erase(queue_.begin()->second);
+      departed_.erase(queue_.begin()->second);
       queue_.erase(queue_.begin());
     }
   }
 
   void Clear() {
-    labels_.clear();
+    departed_.clear();
     queue_.clear();
   }
 
  private:
-  std::map<detection::AgentId, std::shared_ptr<const v1::AgentLabel>> labels_;
+  struct Departed {
+    std::shared_ptr<const v1::AgentLabel> label;
+    Instant told_until;
+  };
+
+  std::map<detection::AgentId, Departed> departed_;
   std::set<std::pair<Instant, detection::AgentId>> queue_;
 };
 
