@@ -18,12 +18,17 @@ bool SameHalfSpace(const detection::AgentDeclaration& a, const detection::AgentD
   return a.half_space->IsSameAs(*b.half_space);
 }
 
-/// Whether no motion that is declared leads from the one state to the other.
-bool Breaks(const detection::AgentDeclaration& declared, const motion::MotionState& before,
+/// Whether no motion that was declared with the one state leads from it to the other.
+bool Breaks(const Agent& agent, std::uint64_t sequence, const motion::MotionState& before,
             const motion::MotionState& next) {
-  const auto orientation = declared.shape != nullptr ? motion::OrientationUse::kMatters
-                                                     : motion::OrientationUse::kIgnored;
-  return motion::CheckContract({before, declared.limits}, next, orientation).verdict ==
+  if (next.discontinuity) return false;
+  motion::MotionLimits limits = agent.declaration.limits;
+  if (agent.former && sequence <= agent.former->until_sequence) {
+    limits = motion::Wider(agent.former->limits, limits);
+  }
+  const auto orientation = agent.declaration.shape != nullptr ? motion::OrientationUse::kMatters
+                                                              : motion::OrientationUse::kIgnored;
+  return motion::CheckContract({before, limits}, next, orientation).verdict ==
          motion::ContractVerdict::kBreached;
 }
 
@@ -97,7 +102,7 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
                                    "it cannot change while the agent is there; allowed: to remove "
                                    "the agent and to add another one"));
   }
-  if (!world_.RunsInRounds()) KeepFormer(wire, agent);
+  KeepFormer(wire, agent);
   agent->names = names_.Complete(wire, &declaration.filter);
   simulator->agents().Revise(wire.slot(), wire.revision(), declaration);
   simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, wire.slot());
@@ -215,13 +220,16 @@ bool AgentRegistry::CountsBefore(const Simulator& simulator, std::uint32_t slot,
   const Agent* agent = simulator.agents().Find(slot, next.generation);
   const std::span<const WaitingState> all = simulator.agents().AllWaiting(slot);
   if (agent == nullptr || !agent->admitted() || all.empty()) return false;
-  const motion::MotionState& newest = all.back().state;
-  if (newest.discontinuity) return true;
-  const motion::MotionState* before =
-      all.size() > 1 ? &all[all.size() - 2].state
-                     : detectors_.StateOf(simulator.IdOf(slot, next.generation));
-  if (before != nullptr && Breaks(agent->declaration, *before, newest)) return true;
-  return !next.state.discontinuity && Breaks(agent->declaration, newest, next.state);
+  const WaitingState& newest = all.back();
+  if (newest.state.discontinuity) return true;
+  if (Breaks(*agent, newest.sequence, newest.state, next.state)) return true;
+  if (all.size() > 1) {
+    const WaitingState& before = all[all.size() - 2];
+    return Breaks(*agent, before.sequence, before.state, newest.state);
+  }
+  const motion::MotionState* in_force = detectors_.StateOf(simulator.IdOf(slot, next.generation));
+  return in_force != nullptr &&
+         Breaks(*agent, agent->acknowledged_sequence(), *in_force, newest.state);
 }
 
 bool AgentRegistry::IsDescribed(const Simulator& simulator, std::uint32_t slot,

@@ -48,8 +48,13 @@ const v1::AgentDescription& AgentTable::description(const AgentId& id) const {
 }
 
 void AgentTable::Describe(const AgentId& id, const AgentDescription& description) {
-  slots_.at(id.slot).bounds = BoundsOf(description);
-  v1::AgentDescription& current = slots_.at(id.slot).description;
+  Slot& slot = slots_.at(id.slot);
+  const MotionBounds bounds = BoundsOf(description);
+  // The next state was reached as was declared before.
+  const bool is_first = slot.description.revision() == 0;
+  slot.bounds_to_next = is_first ? bounds : Wider(slot.bounds_to_next, bounds);
+  slot.bounds = bounds;
+  v1::AgentDescription& current = slot.description;
   const std::uint32_t revision = current.revision() + 1;
   current = ToMessage(description);
   current.set_simulator_id(simulator_id_);
@@ -72,7 +77,7 @@ std::string AgentTable::NameIn(std::uint32_t slot) const {
 void AgentTable::Stage(const AgentId& id, const State& state) {
   Slot& slot = slots_.at(id.slot);
   const bool was_staged = slot.states.staged().has_value();
-  slot.states.Stage(state, slot.bounds, policy_);
+  slot.states.Stage(state, std::exchange(slot.bounds_to_next, slot.bounds), policy_);
   if (!was_staged && slot.states.staged()) staged_slots_.push_back(id.slot);
   ++traffic_.states_set;
 }

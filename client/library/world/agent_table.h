@@ -99,6 +99,7 @@ class AgentTable {
     bool occupied = false;
     v1::AgentDescription description;  ///< Keeps the generation, also while the slot is free.
     MotionBounds bounds;               ///< As described.
+    MotionBounds bounds_to_next;       ///< Wider, if it was described anew since its last state.
     OutgoingStates states;
     std::uint32_t lowerings = 0;              ///< Of its clearance, as last heard.
     std::uint32_t acknowledged_revision = 0;  ///< Likewise.

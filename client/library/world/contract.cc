@@ -147,6 +147,20 @@ MotionBounds BoundsOf(const AgentDescription& description) {
           .turns = description.shape != nullptr};
 }
 
+MotionBounds Wider(const MotionBounds& a, const MotionBounds& b) {
+  // Either leaves it undeclared, or both have one.
+  const auto wider = [](const std::optional<double>& x, const std::optional<double>& y) {
+    return x && y ? std::optional(std::max(*x, *y)) : std::nullopt;
+  };
+  return {.acceleration_max_m_s2 = std::max(a.acceleration_max_m_s2, b.acceleration_max_m_s2),
+          .jerk_max_m_s3 = std::max(a.jerk_max_m_s3, b.jerk_max_m_s3),
+          .angular_acceleration_max_rad_s2 =
+              wider(a.angular_acceleration_max_rad_s2, b.angular_acceleration_max_rad_s2),
+          .speed_max_m_s = wider(a.speed_max_m_s, b.speed_max_m_s),
+          .time_step_s = std::max(a.time_step_s, b.time_step_s),
+          .turns = a.turns && b.turns};
+}
+
 bool MayFollow(const MotionBounds& bounds, const State& before, const State& next) {
   if (next.stamp_ns < before.stamp_ns) return false;
   // The difference of two stamps fits only in an unsigned number.

@@ -19,6 +19,9 @@ struct MotionBounds {
 
 MotionBounds BoundsOf(const AgentDescription& description);
 
+/// What either allows.
+MotionBounds Wider(const MotionBounds& a, const MotionBounds& b);
+
 /// Whether an agent that honours its bounds may come from the one state to the other: false where
 /// the service would find a breach. With s the seconds between the two, a the known acceleration, D
 /// and J what may be wrong about it and h the time step:

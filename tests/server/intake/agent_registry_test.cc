@@ -169,6 +169,30 @@ TEST_F(AgentRegistryRoundTest, ALeapThatIsDeclaredIsNoBreach) {
   EXPECT_EQ(detector.counters().jumps, 1u);
 }
 
+// It sped up to 10 ms, and told before the last two states that it would not any more.
+TEST_F(AgentRegistryRoundTest, ANarrowerBoundCountsFromTheStateAfterIt) {
+  Join();
+  v1::AgentDescription narrower = Description("alpha", 0);
+  narrower.set_revision(2);
+  narrower.set_acceleration_max_m_s2(0);
+  narrower.set_states_sequence(10);
+  Describe(narrower);
+  const auto hear = [&](std::uint64_t ms, double x, double v) {
+    v1::AgentState state = State(0, static_cast<std::int64_t>(ms) * 1'000'000, ms);
+    state.mutable_position_m()->set_x(x);
+    state.mutable_velocity_m_s()->set_x(v);
+    registry.TakeState(alpha, Chunk("alpha"), state);
+  };
+  hear(10, 0.0001, 0.02);
+  hear(20, 0.0004, 0.04);
+  hear(30, 0.0008, 0.04);
+  EXPECT_EQ(BreachesOfRound(), 0u);
+  EXPECT_EQ(counters().states_accepted, 2u) << "nothing but the newest counts";
+  hear(40, 0.0013, 0.06);
+  hear(50, 0.0019, 0.06);
+  EXPECT_EQ(BreachesOfRound(), 1u);
+}
+
 class AgentRegistryWallTest : public AgentRegistryTest {
  protected:
   AgentRegistryWallTest() : AgentRegistryTest(v1::Clock::REAL_TIME) {}

@@ -46,6 +46,22 @@ TEST(AgentTable, ASampleCarriesTheNewestOfTheStatesThatCount) {
   EXPECT_EQ(newest, (std::array<std::uint64_t, 2>{199, 200}));
 }
 
+// It has sped up by what was declared before; from then on it does not.
+TEST(AgentTable, WhatWasDeclaredBeforeCountsUpToTheNextState) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  AgentTable table("simulator", 1, 1, 1, {});
+  const AgentId ball = table.Add({.name = "ball", .acceleration_max_m_s2 = 2}, {.stamp_ns = 0});
+  table.TakeDue(0);
+  table.Describe(ball, {.name = "ball", .acceleration_max_m_s2 = 0});
+  const auto carried = [&](std::int64_t stamp_ns, double x, double v) {
+    table.Stage(ball, {.stamp_ns = stamp_ns, .position_m = {x, 0, 0}, .velocity_m_s = {v, 0, 0}});
+    return table.TakeDue(stamp_ns).at(0).states_size() - 1;
+  };
+  EXPECT_EQ(carried(kSecond, 1, 2), 0);
+  EXPECT_EQ(carried(2 * kSecond, 3, 2), 0);
+  EXPECT_EQ(carried(3 * kSecond, 6, 4), 1) << "the state before, which this one belies";
+}
+
 // Lock-step: a removed agent's last states stand until the round is over, which may take several
 // steps, and the clock that ends it names them.
 TEST(AgentTable, AClockNamesOnlyStatesThatStand) {
