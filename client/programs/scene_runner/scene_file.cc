@@ -20,9 +20,11 @@ v1::Scene ReadScene(const std::string& path) {
   v1::Scene scene;
   ReadProtoText(path, &scene);
   if (!(scene.seconds() > 0) || !std::isfinite(scene.seconds())) {
-    throw std::runtime_error(path + ": seconds: must be greater than 0");
+    throw std::runtime_error(path + ": seconds: " + std::to_string(scene.seconds()) +
+                             ", allowed: greater than 0");
   }
-  if (scene.processes().empty()) throw std::runtime_error(path + ": processes: at least one");
+  if (scene.processes().empty())
+    throw std::runtime_error(path + ": processes: 0, allowed: 1 or more");
   return scene;
 }
 

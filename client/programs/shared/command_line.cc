@@ -1,16 +1,55 @@
 #include "client/programs/shared/command_line.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include "idl/limits.h"
 
 namespace collision::client {
 
-CLI::Range DomainRange() { return {0, int{wire::kDomainMax}}; }
+namespace {
+
+std::string ShortText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+/// `fits` says whether a text is allowed.
+template <typename Fits>
+CLI::Validator Allowed(const std::string& range, Fits fits) {
+  const auto check = [range, fits](const std::string& text) {
+    return fits(text) ? std::string() : text + ", allowed: " + range;
+  };
+  return CLI::Validator(check, range);
+}
+
+template <typename Number>
+CLI::Validator NumberBetween(Number least, Number greatest, const std::string& range) {
+  return Allowed(range, [least, greatest](const std::string& text) {
+    Number value = 0;
+    return CLI::detail::lexical_cast(text, value) && value >= least && value <= greatest;
+  });
+}
+
+}  // namespace
+
+CLI::Validator DomainRange() { return WholeBetween(0, std::int64_t{wire::kDomainMax}); }
+
+CLI::Validator IdentifierWord() {
+  const auto check = [](const std::string& text) {
+    return wire::IsName(text) ? std::string() : "\"" + text + "\", allowed: " + wire::kNameText;
+  };
+  return CLI::Validator(check, "NAME");
+}
 
 void AddWorldOptions(CLI::App* app, const std::string& purpose, std::string* world,
                      std::uint32_t* domain) {
-  app->add_option("--world", *world, purpose)->envname("COLLISION_WORLD")->capture_default_str();
+  app->add_option("--world", *world, purpose)
+      ->envname("COLLISION_WORLD")
+      ->check(IdentifierWord())
+      ->capture_default_str();
   app->add_option("--domain", *domain, "DDS domain")
       ->envname("COLLISION_DOMAIN")
       ->check(DomainRange())
@@ -20,7 +59,8 @@ void AddWorldOptions(CLI::App* app, const std::string& purpose, std::string* wor
 void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
   AddWorldOptions(app, "World to join", &options->world, &options->domain);
   app->add_option("--simulator", options->simulator, "Name of this simulator, unique in the world")
-      ->required();
+      ->required()
+      ->check(IdentifierWord());
   auto* real_time = app->add_flag("--real-time", options->real_time,
                                   "Stamps are times since 1970, and no simulator waits");
   app->add_flag_callback(
@@ -33,7 +73,7 @@ void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
       ->excludes(real_time);
   app->add_option("--start-ns", options->start_ns,
                   "With --real-time: the run's start in nanoseconds since 1970; default: now")
-      ->check(CLI::NonNegativeNumber);
+      ->check(WholeBetween(0, std::numeric_limits<std::int64_t>::max()));
   app->add_flag("--stream", options->stream,
                 "Send every state, not only those that the service needs");
   app->add_option("--traffic", options->traffic,
@@ -45,15 +85,25 @@ void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
 }
 
 CLI::Validator Finite(double greatest, bool zero) {
-  char range[48];
-  std::snprintf(range, sizeof range, "0 %s x <= %.9g", zero ? "<=" : "<", greatest);
-  const auto check = [greatest, zero, range = std::string(range)](const std::string& text) {
-    double value = 0;
-    const bool parsed = CLI::detail::lexical_cast(text, value);
-    const bool allowed = parsed && (zero ? value >= 0 : value > 0) && value <= greatest;
-    return allowed ? std::string() : text + ", allowed: " + range;
-  };
-  return CLI::Validator(check, range);
+  const double least = zero ? 0 : std::numeric_limits<double>::denorm_min();
+  const std::string range = (zero ? "0 <= x <= " : "0 < x <= ") + ShortText(greatest);
+  return NumberBetween(least, greatest, range);
+}
+
+CLI::Validator Between(double least, double greatest) {
+  return NumberBetween(least, greatest, ShortText(least) + " to " + ShortText(greatest));
+}
+
+CLI::Validator WholeBetween(std::int64_t least, std::int64_t greatest) {
+  return NumberBetween(least, greatest, std::to_string(least) + " to " + std::to_string(greatest));
+}
+
+CLI::Validator OneOf(std::vector<std::string> words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return Allowed(list, [words = std::move(words)](const std::string& text) {
+    return std::ranges::count(words, text) > 0;
+  });
 }
 
 int RunProgram(const char* program, const std::function<int()>& run) {

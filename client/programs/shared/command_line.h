@@ -2,8 +2,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/pace.h"
@@ -11,7 +15,10 @@
 namespace collision::client {
 
 /// The DDS domains that there are (idl/limits.h).
-CLI::Range DomainRange();
+CLI::Validator DomainRange();
+
+/// The name of a world or of a simulator (idl/limits.h).
+CLI::Validator IdentifierWord();
 
 /// Adds --world and --domain, which may be set for all programs by COLLISION_WORLD and
 /// COLLISION_DOMAIN.
@@ -21,8 +28,38 @@ void AddWorldOptions(CLI::App* app, const std::string& purpose, std::string* wor
 /// Adds --world, --simulator, --domain, --lock-step, --real-time, ... to the command line.
 void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options);
 
-/// A finite number in (0, greatest], or in [0, greatest] if `zero`. CLI::Range lets NaN pass.
+// Those of CLI11 have messages of their own, and its Range lets NaN pass. Here every option that is
+// refused says "OPTION: VALUE, allowed: RANGE".
+
+/// A finite number in (0, greatest], or in [0, greatest] if `zero`.
 CLI::Validator Finite(double greatest, bool zero);
+
+/// A number in [least, greatest].
+CLI::Validator Between(double least, double greatest);
+
+/// A whole number in [least, greatest].
+CLI::Validator WholeBetween(std::int64_t least, std::int64_t greatest);
+
+/// One of these words.
+CLI::Validator OneOf(std::vector<std::string> words);
+
+/// One of the words of `values`, in place of which their numbers are read.
+template <typename Value>
+CLI::Validator ValueOf(const std::map<std::string, Value>& values) {
+  std::vector<std::string> words;
+  std::map<std::string, std::string> numbers;
+  for (const auto& [word, value] : values) {
+    words.push_back(word);
+    numbers[word] = std::to_string(static_cast<int>(value));
+  }
+  const CLI::Validator check = OneOf(words);
+  const auto transform = [check, numbers](std::string& text) {
+    const std::string refusal = check(text);
+    if (refusal.empty()) text = numbers.at(text);
+    return refusal;
+  };
+  return CLI::Validator(transform, check.get_description());
+}
 
 /// Longest run of a simulator, three years [s].
 inline constexpr double kRunSecondsMax = 1e8;

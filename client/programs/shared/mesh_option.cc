@@ -36,7 +36,7 @@ void AddMeshFrameOptions(CLI::App* app, MeshFileOptions* options) {
     options->up = axis == "x" ? UpAxis::kX : axis == "y" ? UpAxis::kY : UpAxis::kZ;
   };
   app->add_option_function<std::string>("--mesh-up", set, "The file's axis that points up")
-      ->check(CLI::IsMember({"x", "y", "z"}));
+      ->check(OneOf({"x", "y", "z"}));
   app->add_flag("--mesh-centre", options->centre,
                 "The reference point is the centre of the mesh's box, not the file's origin");
 }

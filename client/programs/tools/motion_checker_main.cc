@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "client/checker/check.h"
+#include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
 
 namespace collision::checker {
@@ -97,12 +98,8 @@ int main(int argc, char** argv) {
                  "Configuration of the service in that run: its levels are judged, too");
   app.add_option("--leaving", leaving,
                  "An agent may have left this many seconds before its motion ends")
-      ->check(CLI::NonNegativeNumber);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? collision::client::kExitOk : collision::client::kExitUsage;
-  }
+      ->check(collision::client::Finite(1e9, true));
+  if (const auto code = collision::client::ParseCommandLine(&app, argc, argv)) return *code;
   facts.leaving_ns = std::llround(leaving * 1e9);
   try {
     if (!config.empty()) facts.config = ConfigOf(config);

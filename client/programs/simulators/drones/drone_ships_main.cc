@@ -15,7 +15,7 @@ namespace {
 
 void AddFlightOptions(CLI::App* app, DroneShipOptions* options) {
   app->add_option("--drones", options->drones, "Number of drones")
-      ->check(CLI::Range(1, 100000))
+      ->check(WholeBetween(1, 100000))
       ->capture_default_str();
   app->add_option("--first", options->first,
                   "Number of the first: each process of a swarm takes a slice")

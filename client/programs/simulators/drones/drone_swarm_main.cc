@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   CLI::App app("Flies drones under random forces in a world of the collision service.",
                "drone-swarm");
   app.add_option("--drones", swarm.drones, "Number of drones")
-      ->check(CLI::Range(1, 100000))
+      ->check(WholeBetween(1, 100000))
       ->capture_default_str();
   app.add_option("--first", swarm.first,
                  "Number of the first: each process of a swarm takes a slice")
@@ -36,11 +36,11 @@ int main(int argc, char** argv) {
                "Declare the greatest speed: slightly fewer states, more work for the service");
   app.add_option("--force-every", swarm.force_every,
                  "Steps for which a drone holds a force; at most 0.1 s in all")
-      ->check(CLI::Range(1, 100))
+      ->check(WholeBetween(1, 100))
       ->capture_default_str();
   app.add_option("--places", swarm.limits.places,
                  "Number of places between which the drones fly; many spread the drones out")
-      ->check(CLI::Range(1, 1000000))
+      ->check(WholeBetween(1, 1000000))
       ->capture_default_str();
   AddRunOptions(&app, &simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;

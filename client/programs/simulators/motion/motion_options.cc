@@ -26,10 +26,10 @@ void AddTurnOptions(CLI::App* app, TurnLimits* limits) {
 
 void AddStepOptions(CLI::App* app, double* rate_hz, std::size_t* state_every) {
   app->add_option("--rate", *rate_hz, "Steps per second")
-      ->check(CLI::Range(10, 1000))
+      ->check(WholeBetween(10, 1000))
       ->capture_default_str();
   app->add_option("--state-every", *state_every, "Steps between two states")
-      ->check(CLI::Range(1, 1000))
+      ->check(WholeBetween(1, 1000))
       ->capture_default_str();
 }
 

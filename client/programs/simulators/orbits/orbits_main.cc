@@ -18,7 +18,7 @@ const std::map<std::string, bool> kTold = {{"always", true}, {"never", false}};
 void AddOrbitOptions(CLI::App* app, OrbitsOptions* options) {
   ConstellationOptions& constellation = options->constellation;
   app->add_option("--satellites", options->satellites, "Number of satellites")
-      ->check(CLI::Range(1, 100000))
+      ->check(WholeBetween(1, 100000))
       ->capture_default_str();
   app->add_option("--first", options->first,
                   "Number of the first: each process of a constellation takes a slice")
@@ -27,7 +27,7 @@ void AddOrbitOptions(CLI::App* app, OrbitsOptions* options) {
       ->capture_default_str();
   app->add_option("--crossings", constellation.crossings,
                   "Times at which a part of the satellites cross each other's paths")
-      ->check(CLI::Range(1, 100000))
+      ->check(WholeBetween(1, 100000))
       ->capture_default_str();
   app->add_option("--spread", constellation.spread_m, "Radius of a crossing [m]")
       ->check(Finite(1e6, false))
@@ -46,7 +46,7 @@ void AddOrbitOptions(CLI::App* app, OrbitsOptions* options) {
       ->capture_default_str();
   app->add_option("--known-acceleration", options->tells_acceleration,
                   "Whether states tell the acceleration of gravity: always or never")
-      ->transform(CLI::CheckedTransformer(kTold))
+      ->transform(ValueOf(kTold))
       ->default_str("always");
 }
 

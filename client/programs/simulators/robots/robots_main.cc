@@ -12,10 +12,10 @@ namespace {
 
 void AddRobotOptions(CLI::App* app, RobotOptions* options) {
   app->add_option("--robots", options->robots, "Number of robots")
-      ->check(CLI::Range(1, 10000))
+      ->check(WholeBetween(1, 10000))
       ->capture_default_str();
   app->add_option("--links", options->limits.links, "Links of a robot")
-      ->check(CLI::Range(1, 100))
+      ->check(WholeBetween(1, 100))
       ->capture_default_str();
   app->add_option("--first", options->first,
                   "Number of the first: each process of a crowd takes a slice")
@@ -33,10 +33,10 @@ void AddRobotOptions(CLI::App* app, RobotOptions* options) {
                   &options->limits.base.acceleration_max_m_s2);
   AddTurnOptions(app, &options->limits.turn);
   app->add_option("--rate", options->rate_hz, "Steps per second")
-      ->check(CLI::Range(20.0, 1000.0))
+      ->check(Between(20.0, 1000.0))
       ->capture_default_str();
   app->add_option("--state-every", options->state_every, "Steps between two states of a link")
-      ->check(CLI::Range(1, 1000))
+      ->check(WholeBetween(1, 1000))
       ->capture_default_str();
 }
 

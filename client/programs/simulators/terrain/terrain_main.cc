@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   CLI::App app("Puts hills into a world of the collision service: one agent that never moves.",
                "terrain");
   app.add_option("--triangles", terrain.triangles, "Greatest number of triangles")
-      ->check(CLI::Range(kTerrainTrianglesMin, kShapeTrianglesMax))
+      ->check(WholeBetween(kTerrainTrianglesMin, kShapeTrianglesMax))
       ->capture_default_str();
   app.add_option("--size", terrain.size_m, "Side of its square, from the origin along +x, +y [m]")
       ->check(Finite(kTerrainSizeMax, false))
@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
       ->check(Finite(kTerrainSizeMax, false))
       ->capture_default_str();
   app.add_option("--base", terrain.base_m, "z of the lowest possible valley [m]")
-      ->check(CLI::Range(-kTerrainSizeMax, kTerrainSizeMax))
+      ->check(Between(-kTerrainSizeMax, kTerrainSizeMax))
       ->capture_default_str();
   app.add_option("--seed", terrain.seed, "Seed of the hills")->capture_default_str();
   AddRunOptions(&app, &simulator);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/mesh_option.h"
 #include "client/programs/tools/collisionctl/json/json_writer.h"
@@ -157,23 +158,23 @@ CLI::App* AddSphereTreeCommand(CLI::App* app, SphereTreeOptions* options) {
   command->add_option("mesh", options->mesh, "OBJ, STL, PLY, glTF or GLB")->required();
   AddRequiredMeshFrameOptions(command, &options->frame);
   command->add_option("--builder", options->builder, "octree or fitted")
-      ->check(CLI::IsMember({"octree", "fitted"}))
+      ->check(OneOf({"octree", "fitted"}))
       ->capture_default_str();
   command
       ->add_option("--levels", options->levels,
                    "Levels to build at most, the root's among them, 1 to 24")
-      ->check(CLI::Range(kTreeLevelsMin, kTreeLevelsMax))
+      ->check(WholeBetween(kTreeLevelsMin, kTreeLevelsMax))
       ->expected(0, 1)
       ->capture_default_str();
   command->add_option("--report", options->report, "text (also if nothing follows) or json")
-      ->check(CLI::IsMember({"text", "json"}))
+      ->check(OneOf({"text", "json"}))
       ->expected(0, 1)
       ->default_str("text");
   command
       ->add_option(
           "--export", options->format,
           "obj or json: the balls of a level; binpb: the whole tree (idl/sphere_tree.proto)")
-      ->check(CLI::IsMember({"obj", "json", "binpb"}));
+      ->check(OneOf({"obj", "json", "binpb"}));
   command->add_option("--output", options->output,
                       "File for --export; without it standard output, and no report there");
   command->add_option("--picture", options->picture, "Draws a level over the mesh: FILE.svg");

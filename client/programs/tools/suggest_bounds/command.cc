@@ -11,7 +11,6 @@
 #include "client/library/network/dds_transport.h"
 #include "client/library/network/message_monitor.h"
 #include "client/library/notices/notices.h"
-#include "client/library/validation.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/stop_signal.h"
@@ -132,7 +131,7 @@ CLI::App* AddSuggestBoundsCommand(CLI::App* app, SuggestBoundsOptions* options) 
   command
       ->add_option("--period", options->period_s,
                    "Meanwhile simulators send states at least so often [s], 0.02 to 3600")
-      ->check(CLI::Range(1e-9 * wire::kWatchPeriodMin, 1e-9 * wire::kWatchPeriodMax))
+      ->check(Between(1e-9 * wire::kWatchPeriodMin, 1e-9 * wire::kWatchPeriodMax))
       ->needs(live)
       ->capture_default_str();
   command
@@ -164,7 +163,6 @@ int RunSuggestBounds(const SuggestBoundsOptions& options, const LiveWorld& live,
   CatchStopSignals();
   Seen seen;
   try {
-    if (options.live) ValidateWorld(live.world, live.domain);
     seen = options.live ? Watch(options, live) : ReadFile(options.file);
   } catch (const std::runtime_error& error) {
     seen = Failed(error.what(), kExitUnavailable);

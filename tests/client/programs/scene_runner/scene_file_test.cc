@@ -55,8 +55,9 @@ TEST_F(SceneFileTest, ErrorsNameTheirPlace) {
   EXPECT_EQ(ErrorOf(good), "no error");
   EXPECT_EQ(ErrorOf("seconds: 1\nspeed: 2\n").substr(0, 17), "test.textproto:2:");
   EXPECT_NE(ErrorOf("seconds: 1\nspeed: 2\n").find("speed"), std::string::npos);
-  EXPECT_EQ(ErrorOf("seconds: -1\n"), "test.textproto: seconds: must be greater than 0");
-  EXPECT_EQ(ErrorOf("seconds: 1\n"), "test.textproto: processes: at least one");
+  EXPECT_EQ(ErrorOf("seconds: -1\n"),
+            "test.textproto: seconds: -1.000000, allowed: greater than 0");
+  EXPECT_EQ(ErrorOf("seconds: 1\n"), "test.textproto: processes: 0, allowed: 1 or more");
   EXPECT_EQ(ErrorOf(good + "data_file: \"x.csv\"\n"), "test: needs the data folder: x.csv");
 }
 
