@@ -1,4 +1,5 @@
-// The extensions of a service's hello: what its configuration says of who meets whom.
+// The extensions of a service's hello: what its configuration says of who meets whom, and what of
+// it is told.
 #pragma once
 
 #include <string_view>
@@ -11,5 +12,9 @@ inline constexpr std::string_view kClassExtension = "class.";
 
 /// How many pairs of agents the configuration excludes.
 inline constexpr std::string_view kExcludedExtension = "excluded";
+
+/// The names of the levels that the configuration has, separated by blanks. Not told if there is no
+/// room for all.
+inline constexpr std::string_view kLevelsExtension = "levels";
 
 }  // namespace collision::wire

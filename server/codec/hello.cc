@@ -40,6 +40,17 @@ void AddClasses(const v1::Config& config, v1::ServiceHello* hello) {
   }
 }
 
+/// The names of all levels, if there is room for them.
+void AddLevels(const v1::Config& config, v1::ServiceHello* hello) {
+  std::string names;
+  for (const v1::Level& level : config.levels()) {
+    names += (names.empty() ? "" : " ") + level.name();
+  }
+  const bool fits = hello->extensions_size() < wire::kHelloExtensionsMax &&
+                    names.size() <= wire::kExtensionValueMax;
+  if (fits) Extend(std::string(wire::kLevelsExtension), names, hello);
+}
+
 }  // namespace
 
 v1::ServiceHello HelloOf(const v1::Config& config) {
@@ -54,6 +65,7 @@ v1::ServiceHello HelloOf(const v1::Config& config) {
   hello.add_regions(hello.region());
   Extend(std::string(wire::kExcludedExtension), std::to_string(config.excluded_size()), &hello);
   AddClasses(config, &hello);
+  AddLevels(config, &hello);
   return hello;
 }
 

@@ -35,6 +35,12 @@ bool Names(const v1::ServiceStatus& status, const std::string& key, const std::s
 
 }  // namespace
 
+AgentId IdOf(const AgentView& agent) {
+  const v1::AgentDescription& description = agent.description;
+  return {description.simulator_id(), description.run(), description.slot(),
+          description.generation()};
+}
+
 bool IsHeld(const AgentView& agent) {
   return agent.presence == AgentPresence::kHeld || agent.presence == AgentPresence::kSilent ||
          agent.presence == AgentPresence::kWaitedFor;

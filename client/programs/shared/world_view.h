@@ -41,6 +41,8 @@ struct AgentView {
   std::optional<v1::AgentBreach> breach;  ///< The newest; nullopt: none was told.
 };
 
+AgentId IdOf(const AgentView& agent);
+
 /// Whether the service holds it, so that it counts for others.
 bool IsHeld(const AgentView& agent);
 

@@ -1,21 +1,19 @@
 // collisionctl: shows a running world from outside.
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <csignal>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
-#include <tuple>
 #include <vector>
 
 #include "client/library/deadline.h"
 #include "client/library/network/dds_transport.h"
 #include "client/library/notices/notices.h"
-#include "client/library/validation.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/agents_watcher.h"
 #include "client/programs/tools/collisionctl/events/event_printer.h"
+#include "client/programs/tools/collisionctl/examples.h"
 #include "client/programs/tools/collisionctl/json/status_json.h"
 #include "client/programs/tools/collisionctl/json/world_json.h"
 #include "client/programs/tools/collisionctl/operator_request.h"
@@ -198,8 +196,15 @@ int Run(const std::string& command, const Options& options) {
     top.json = options.json;
     RunTop(top, &monitor, &view, [] { return stopped != 0; });
   } else if (command == "events") {
-    EventPrinter printer({.json = options.json, .explain = options.explain}, FilterOf(options),
-                         &std::cout);
+    const EventFilter filter = FilterOf(options);
+    if (const std::string wrong = UnknownLevelText(filter, view); !wrong.empty()) {
+      std::cerr << "collisionctl: " << wrong << '\n';
+      return kExitUsage;
+    }
+    if (const std::string absent = AbsentAgentsText(filter, view); !absent.empty()) {
+      std::cerr << "collisionctl: " << absent << '\n';
+    }
+    EventPrinter printer({.json = options.json, .explain = options.explain}, filter, &std::cout);
     options.follow ? Follow(&monitor, &view, &printer) : printer.PrintCurrent(&view);
   } else {
     Print(command, options, &view);
@@ -209,32 +214,6 @@ int Run(const std::string& command, const Options& options) {
   std::cerr << "collisionctl: the output cannot be written\n";
   return kExitOutputFailed;
 }
-
-constexpr const char* kExamples = R"(
-Examples:
-  collisionctl status                   whether all is well; else what is wrong, and what to do
-  collisionctl status --all             every simulator, the broad phase and why, all counters
-  collisionctl earliest                 the pair that can touch first, and the earliest time for it
-  collisionctl agents                   every agent, and how long it is clear
-  collisionctl agents --watch           likewise every second, with fresh states, until Ctrl-C
-  collisionctl shapes                   every shape: owner, triangles and solids, parts received
-  collisionctl events                   the current revision of every event
-  collisionctl events --follow          one line per revision as it comes, until Ctrl-C
-  collisionctl events --agent ada --status possible,confirmed --within 10 --explain
-                                        what ada can meet in the next 10 s, in sentences
-  collisionctl events --top 5           the five that are nearest in time
-  collisionctl top                      a live table of the nearest pairs
-  collisionctl why ada bob              when the two can meet, why then, what would narrow it
-  collisionctl evict NAME               remove a simulator with its agents
-  collisionctl restart-time             lock-step: let time begin anew, for all simulators
-  collisionctl suggest-bounds run.rec   bounds that the agents of a recording keep; also CSV, --live
-  collisionctl sphere-tree ship.obj     how well the spheres of a mesh fit it (needs no service)
-  collisionctl --world lab events --follow --json | jq 'select(.status == "confirmed")'
-
-Only evict and restart-time change anything in the world. The network is that of Cyclone DDS, set
-by CYCLONEDDS_URI; it is printed on standard error at the start, with world and domain. Exit codes:
-0 done, 1 refused, not answered within the timeout, or no such agent, 2 usage, 69 no service within
-the timeout or no DDS, 74 the output cannot be written.)";
 
 /// Words of a status, one or several, separated by commas.
 CLI::Validator StatusWord() {
@@ -288,7 +267,7 @@ void AddEvents(CLI::App* app, Options* options) {
           "--top", options->top,
           "Only the so many that are nearest in time, 1 to 4096; expected ones first, then "
           "the nearest")
-      ->check(CLI::Range(std::size_t{1}, EventSelection::kRememberedMax));
+      ->check(WholeBetween(1, EventSelection::kRememberedMax));
 }
 
 void AddTop(CLI::App* app, Options* options) {
@@ -297,10 +276,10 @@ void AddTop(CLI::App* app, Options* options) {
   CLI::App* top = app->add_subcommand(
       "top", "The pairs that are nearest in time, drawn anew every period until Ctrl-C or q");
   top->add_option("--rows", options->top_view.rows, "Pairs to show at most, 1 to 1000")
-      ->check(CLI::Range(std::size_t{1}, kRowsMax))
+      ->check(WholeBetween(1, kRowsMax))
       ->capture_default_str();
   top->add_option("--period", options->period_s, "Seconds between two pictures, 0.1 to 3600")
-      ->check(CLI::Range(kPeriodMin, kPeriodMax))
+      ->check(Between(kPeriodMin, kPeriodMax))
       ->capture_default_str();
   top->add_flag("--once", options->top_view.once, "Print it once");
 }
@@ -318,12 +297,11 @@ void AddWhy(CLI::App* app, Options* options) {
 void AddViews(CLI::App* app, Options* options) {
   AddWorldOptions(app, "World to look at", &options->monitor.world, &options->monitor.domain);
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a service, 0 to 1e6")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(Between(0.0, 1e6))
       ->capture_default_str();
   app->add_flag("--json", options->json, "JSON for programs: one document, or one line per event");
   app->require_subcommand(1);
   app->fallthrough();
-  app->footer(kExamples);
   app->add_subcommand("status", "In 12 lines: what is wrong and what to do, service, simulators")
       ->add_flag("--all", options->all, "All that the service tells, with every simulator");
   CLI::App* agents = app->add_subcommand("agents", "Table of all agents");
@@ -331,7 +309,7 @@ void AddViews(CLI::App* app, Options* options) {
       "--watch", options->watch,
       "Print it again and again; meanwhile simulators send states at least once a period");
   agents->add_option("--period", options->period_s, "Seconds between two tables, 0.02 to 3600")
-      ->check(CLI::Range(1e-9 * wire::kWatchPeriodMin, 1e-9 * wire::kWatchPeriodMax))
+      ->check(Between(1e-9 * wire::kWatchPeriodMin, 1e-9 * wire::kWatchPeriodMax))
       ->needs(watch)
       ->capture_default_str();
   app->add_subcommand("shapes", "Table of all shapes that agents have");
@@ -341,21 +319,13 @@ void AddViews(CLI::App* app, Options* options) {
   AddWhy(app, options);
 }
 
-/// What is wrong with options that parsed; empty: nothing. CLI::Range lets NaN pass.
-std::string ComplaintAbout(const Options& options) {
-  for (const auto& [option, value, allowed] :
-       {std::tuple("--timeout", options.timeout_s, "0 to 1e6"),
-        {"--period", options.period_s, "a number of seconds"}}) {
-    if (std::isfinite(value)) continue;
-    return std::string(option) + ": " + (std::isnan(value) ? "nan" : "inf") +
-           ", allowed: " + allowed;
+/// To the help of the program all examples, to that of a command its own.
+void AddExamples(CLI::App* app) {
+  app->footer(AllExamples());
+  for (CLI::App* command : app->get_subcommands(nullptr)) {
+    const std::string own = ExamplesOf(command->get_name());
+    if (command->get_footer().empty()) command->footer(own);
   }
-  try {
-    ValidateWorld(options.monitor.world, options.monitor.domain);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 int Operate(const Options& options, const v1::OperatorCommand& command) {
@@ -375,13 +345,14 @@ int Main(int argc, char** argv) {
   AddViews(&app, &options);
   std::string evicted;
   CLI::App* evict = app.add_subcommand("evict", "Remove a simulator, also if its process lives");
-  evict->add_option("NAME", evicted, "Its name")->required();
+  evict->add_option("NAME", evicted, "Its name")->required()->check(IdentifierWord());
   CLI::App* restart =
       app.add_subcommand("restart-time", "Lock-step: let the world's time begin anew");
   SphereTreeOptions tree;
   const CLI::App* sphere_tree = AddSphereTreeCommand(&app, &tree);
   SuggestBoundsOptions bounds;
   const CLI::App* suggest_bounds = AddSuggestBoundsCommand(&app, &bounds);
+  AddExamples(&app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RequiredError& error) {
@@ -399,14 +370,6 @@ int Main(int argc, char** argv) {
   if (suggest_bounds->parsed()) {
     const MonitorOptions& place = options.monitor;
     return RunSuggestBounds(bounds, {place.world, place.domain, options.timeout_s}, options.json);
-  }
-  if (const std::string wrong = ComplaintAbout(options); !wrong.empty()) {
-    std::cerr << "collisionctl: " << wrong << '\n';
-    return kExitUsage;
-  }
-  if (evict->parsed() && !wire::IsName(evicted)) {
-    std::cerr << "collisionctl: NAME: \"" << evicted << "\", allowed: " << wire::kNameText << '\n';
-    return kExitUsage;
   }
   if (evict->parsed() || restart->parsed()) {
     const auto kind = evict->parsed() ? v1::OPERATOR_EVICT : v1::OPERATOR_RESTART_TIME;

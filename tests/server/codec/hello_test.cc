@@ -65,15 +65,32 @@ TEST(Hello, TellsWhichClassesMeetIfThereIsRoom) {
     for (const v1::KeyValue& one : hello.extensions()) extensions[one.key()] = one.value();
     return extensions;
   };
-  EXPECT_EQ(told(), (std::map<std::string, std::string>{
-                        {"excluded", "1"}, {"class.robot", "person robot"}, {"class.person", ""}}));
+  EXPECT_EQ(told(), (std::map<std::string, std::string>{{"excluded", "1"},
+                                                        {"class.robot", "person robot"},
+                                                        {"class.person", ""},
+                                                        {"levels", ""}}));
   for (int i = 2; i < wire::kHelloExtensionsMax - 1; ++i) add("class-" + std::to_string(i));
   EXPECT_EQ(told().size(), static_cast<std::size_t>(wire::kHelloExtensionsMax));
   for (int i = 0; i < 40; ++i) robot->add_meets("class-" + std::to_string(i % 9 + 2));
-  EXPECT_EQ(told().size(), 1u) << "a list is too long";
+  EXPECT_EQ(told().size(), 2u) << "a list is too long";
   robot->clear_meets();
   add("one-more");
-  EXPECT_EQ(told().size(), 1u) << "too many classes";
+  EXPECT_EQ(told().size(), 2u) << "too many classes";
+}
+
+// Goal:   all levels are told, or none, where their names have no room.
+TEST(Hello, TellsItsLevelsIfThereIsRoom) {
+  v1::Config config;
+  const auto told = [&config] {
+    const v1::ServiceHello hello = HelloOf(config);
+    const v1::KeyValue& last = hello.extensions(hello.extensions_size() - 1);
+    return last.key() + "=" + last.value();
+  };
+  config.add_levels()->set_name("near");
+  config.add_levels()->set_name("keep-out");
+  EXPECT_EQ(told(), "levels=near keep-out");
+  for (int i = 0; i < 6; ++i) config.add_levels()->set_name(std::string(64, 'a'));
+  EXPECT_EQ(told(), "excluded=0");
 }
 
 TEST(Hello, WhatDoesNotFitIsRefusedByField) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 
 #include "client/library/network/conversion.h"
+#include "idl/hello_extensions.h"
 
 namespace collision::client {
 namespace {
@@ -21,6 +23,37 @@ bool IsCalled(const AgentId& id, const std::string& name, const WorldView& view)
 }
 
 }  // namespace
+
+std::string UnknownLevelText(const EventFilter& filter, const WorldView& view) {
+  const auto told = view.HelloExtension(std::string(wire::kLevelsExtension));
+  if (!told) return "";
+  std::vector<std::string> known = {kContactLevel};
+  std::istringstream names(*told);
+  for (std::string name; names >> name;) known.push_back(name);
+  std::string allowed;
+  for (const std::string& name : known) allowed += (allowed.empty() ? "" : ", ") + name;
+  for (const std::string& level : filter.levels) {
+    if (std::ranges::count(known, level) > 0) continue;
+    return "--level: \"" + level + "\", allowed: " + allowed + ", the levels of this service";
+  }
+  return "";
+}
+
+std::string AbsentAgentsText(const EventFilter& filter, const WorldView& view) {
+  const std::vector<AgentView> agents = view.Agents();
+  std::string absent;
+  for (const std::string& name : filter.agents) {
+    const auto is_called = [&](const AgentView& agent) {
+      return IsCalled(IdOf(agent), name, view);
+    };
+    if (std::ranges::any_of(agents, is_called)) continue;
+    absent += (absent.empty() ? "" : ", ") + ("\"" + name + "\"");
+  }
+  if (absent.empty()) return "";
+  return "--agent: no agent called " + absent +
+         " is here yet; events are shown when one comes, and collisionctl agents lists those that "
+         "are here";
+}
 
 std::optional<EventStatus> StatusOf(const std::string& name) {
   for (const EventStatus status :

@@ -29,6 +29,13 @@ struct EventFilter {
   bool expected = false;
 };
 
+/// A sentence if the filter names a level that the service in force does not have, with those that
+/// it has; empty: it names none, or the service has not said which there are.
+std::string UnknownLevelText(const EventFilter& filter, const WorldView& view);
+
+/// A sentence about those of its agents that are not in the world now; empty: all are.
+std::string AbsentAgentsText(const EventFilter& filter, const WorldView& view);
+
 /// The status of this name, as Name(EventStatus) has it; nullopt: there is none.
 std::optional<EventStatus> StatusOf(const std::string& name);
 

@@ -8,12 +8,6 @@
 
 namespace collision::client {
 
-AgentId IdOf(const AgentView& agent) {
-  const v1::AgentDescription& description = agent.description;
-  return {description.simulator_id(), description.run(), description.slot(),
-          description.generation()};
-}
-
 std::optional<v1::CollisionEvent> NewestOf(const AgentId& a, const AgentId& b, WorldView* view) {
   std::optional<v1::CollisionEvent> newest;
   for (const v1::CollisionEvent& event : view->TakeEvents()) {

@@ -15,9 +15,6 @@ class NoSuchAgent : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The identity of the agent that is described.
-AgentId IdOf(const AgentView& agent);
-
 /// The newest event of the pair that has come, and is taken from the view; nullopt: there is none.
 std::optional<v1::CollisionEvent> NewestOf(const AgentId& a, const AgentId& b, WorldView* view);
 

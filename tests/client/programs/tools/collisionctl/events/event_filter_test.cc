@@ -194,5 +194,33 @@ TEST(DistanceInTime, IsKeptWithinItsRange) {
   EXPECT_EQ(DistanceInTime(event, 0), 0);
 }
 
+// Goal:   a level that the service does not have is an error that lists those it has; while it has
+//         not said, none is refused.
+TEST_F(EventFilterTest, AnUnknownLevelIsNamedWithThoseThereAre) {
+  const EventFilter filter{.levels = {"contact", "near", "nope"}};
+  EXPECT_EQ(UnknownLevelText(filter, view_), "");
+  v1::ServiceHello hello;
+  hello.set_service_id(1);
+  v1::KeyValue* levels = hello.add_extensions();
+  levels->set_key("levels");
+  levels->set_value("near keep-out");
+  view_.Callbacks().hello(hello);
+  EXPECT_EQ(UnknownLevelText(filter, view_),
+            "--level: \"nope\", allowed: contact, near, keep-out, the levels of this service");
+  EXPECT_EQ(UnknownLevelText({.levels = {"contact", "near"}}, view_), "");
+  EXPECT_EQ(UnknownLevelText({}, view_), "");
+}
+
+// Goal:   agents that are not there are named, by either form of their names.
+TEST_F(EventFilterTest, AbsentAgentsAreNamed) {
+  Describe("ada", 1, 0);
+  Poll(1);
+  EXPECT_EQ(AbsentAgentsText({.agents = {"ada", "sim:ada"}}, view_), "");
+  EXPECT_EQ(AbsentAgentsText({}, view_), "");
+  EXPECT_EQ(AbsentAgentsText({.agents = {"bob", "ada", "people:ada"}}, view_),
+            "--agent: no agent called \"bob\", \"people:ada\" is here yet; events are shown when "
+            "one comes, and collisionctl agents lists those that are here");
+}
+
 }  // namespace
 }  // namespace collision::client
