@@ -6,12 +6,16 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "client/library/validation.h"
 #include "collision_core/shape/convex_solid.h"
 
 namespace collision::client {
+
+static_assert(kSolidLengthMax == shape::kConvexSizeMax);
+
 namespace {
 
 Eigen::Vector3d VectorOf(const Vector3& v) { return {v[0], v[1], v[2]}; }
@@ -104,15 +108,16 @@ std::optional<std::string> RefusalOfUnused(const Solid& solid) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (used[i] || solid.half_extents_m[i] == 0) continue;
     const char axis = "xyz"[i];
-    return std::string("half_extents_m.") + axis + " is " + ShortText(solid.half_extents_m[i]) +
-           "; allowed is 0: a " + kind + " has none along " + axis;
+    return std::string("half_extents_m.") + axis + ": " + ShortText(solid.half_extents_m[i]) +
+           ", allowed: 0, since a " + kind + " has none along " + axis;
   }
   if (solid.kind == Solid::Kind::kHull || solid.points_m.empty()) return std::nullopt;
-  return "points_m: there are " + std::to_string(solid.points_m.size()) + "; allowed are 0: a " +
-         kind + " has none";
+  return "points_m: " + std::to_string(solid.points_m.size()) + ", allowed: 0, since a " + kind +
+         " has none";
 }
 
-/// Replaces the core's name of a field by the caller's.
+/// Replaces the core's name of a field by the caller's, and says the rest as all refusals of the
+/// library: "field: value, allowed: range".
 std::string InCallersWords(std::string text) {
   constexpr std::array<std::pair<const char*, const char*>, 7> kWords = {
       {{"convex.core", "kind"},
@@ -123,7 +128,20 @@ std::string InCallersWords(std::string text) {
        {"convex.p_BS", "position_m"},
        {"convex: its size", "its diameter"}}};
   for (const auto& [ours, theirs] : kWords) {
-    if (text.starts_with(ours)) return text.replace(0, std::string(ours).size(), theirs);
+    if (!text.starts_with(ours)) continue;
+    text.replace(0, std::string_view(ours).size(), theirs);
+    break;
+  }
+  constexpr std::array<std::pair<std::string_view, const char*>, 5> kStyle = {
+      {{" has the length ", ": length "},
+       {": there are ", ": "},
+       {" is ", ": "},
+       {"; allowed are ", ", allowed: "},
+       {"; allowed is ", ", allowed: "}}};
+  for (const auto& [ours, theirs] : kStyle) {
+    const std::size_t at = text.find(ours);
+    // What stands behind the range is a remark.
+    if (at < text.find(", allowed: ")) text.replace(at, ours.size(), theirs);
   }
   return text;
 }
@@ -140,14 +158,14 @@ void RequireFitSolid(const Solid& solid, std::size_t number) {
 
 std::vector<Solid> Canonical(std::vector<Solid> solids) {
   if (solids.size() > kShapeSolidsMax) {
-    throw std::invalid_argument("solids: there are " + std::to_string(solids.size()) +
-                                "; allowed are 0 to " + std::to_string(kShapeSolidsMax));
+    throw std::invalid_argument("solids: " + std::to_string(solids.size()) + ", allowed: 0 to " +
+                                std::to_string(kShapeSolidsMax));
   }
   std::size_t points = 0;
   for (const Solid& solid : solids) points += solid.points_m.size();
   if (points > kShapeHullPointsMax) {
     throw std::invalid_argument("solids: their hulls have " + std::to_string(points) +
-                                " points; allowed are 0 to " + std::to_string(kShapeHullPointsMax));
+                                " points, allowed: 0 to " + std::to_string(kShapeHullPointsMax));
   }
   for (std::size_t i = 0; i < solids.size(); ++i) {
     MakeCanonical(&solids[i]);

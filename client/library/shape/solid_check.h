@@ -8,8 +8,11 @@
 
 namespace collision::client {
 
+/// Greatest length of a core, and of what it is rounded by [m]; the core's kConvexSizeMax.
+inline constexpr double kSolidLengthMax = 1e7;
+
 /// The same solids in a form in which equal values have equal bytes: −0 becomes 0. Throws
-/// std::invalid_argument, "solids[number] (kind): field is value; allowed are ...", for the first
+/// std::invalid_argument, "solids[number] (kind): field: value, allowed: range", for the first
 /// that the service would refuse.
 std::vector<Solid> Canonical(std::vector<Solid> solids);
 

@@ -13,8 +13,8 @@ namespace collision::client {
 Solid SolidOf(const v1::ConvexSolid& message);
 
 /// All solids of a file of protobuf text. Throws BadInput with the file's name, line and cause: the
-/// file cannot be read or parsed, has no solids, or one without a core. Shape::Make() checks
-/// values.
+/// file cannot be read or parsed, has no solids, one without a core, or a length
+/// of a core that is missing or out of range. Shape::Make() checks all other values.
 std::vector<Solid> ReadSolids(const std::string& path);
 
 }  // namespace collision::client

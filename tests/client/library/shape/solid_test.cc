@@ -111,40 +111,39 @@ TEST(Solid, ARefusalNamesSolidFieldValueAndRange) {
     return Refusal({.solids = {Solid::Ball(1), solid}});
   };
   EXPECT_EQ(second(Solid::Capsule(0.1, -2)),
-            "solids[1] (capsule): half_extents_m.z is -2; allowed are 0 to 1e+07 m");
+            "solids[1] (capsule): half_extents_m.z: -2, allowed: 0 to 1e+07 m");
   EXPECT_EQ(second(Solid::Ball(kInfinity)),
-            "solids[1] (ball): rounding_m is inf; allowed are 0 to 1e+07 m");
+            "solids[1] (ball): rounding_m: inf, allowed: 0 to 1e+07 m");
   EXPECT_EQ(second(Solid::Box({1, kNaN, 1})),
-            "solids[1] (box): half_extents_m.y is nan; allowed are 0 to 1e+07 m");
+            "solids[1] (box): half_extents_m.y: nan, allowed: 0 to 1e+07 m");
   EXPECT_EQ(second(Solid::Ball(1).At({0, 0, 1e300})),
-            "solids[1] (ball): position_m.z is 1e+300; allowed are finite values within ±1e+07 m");
+            "solids[1] (ball): position_m.z: 1e+300, allowed: finite values within ±1e+07 m");
   EXPECT_EQ(second(Solid::Ball(1).At({}, {0, 0, 0, 0})),
-            "solids[1] (ball): orientation has the length 0; allowed are 1e-100 to 1e+100");
+            "solids[1] (ball): orientation: length 0, allowed: 1e-100 to 1e+100");
   EXPECT_EQ(second(Solid::Hull({{1, 0, 0}, {0, -kInfinity, 0}})),
-            "solids[1] (hull): points_m[1].y is -inf; allowed are finite values within ±1e+07 m");
-  EXPECT_EQ(second(Solid::Hull({})),
-            "solids[1] (hull): points_m: there are 0; allowed are 1 to 65536");
+            "solids[1] (hull): points_m[1].y: -inf, allowed: finite values within ±1e+07 m");
+  EXPECT_EQ(second(Solid::Hull({})), "solids[1] (hull): points_m: 0, allowed: 1 to 65536");
   EXPECT_EQ(second(Solid::Ellipsoid({1e-9, 1e-9, 1e-9})),
-            "solids[1] (ellipsoid): its diameter is 2e-09 m; allowed are 1e-06 to 1e+07 m (most "
+            "solids[1] (ellipsoid): its diameter: 2e-09 m, allowed: 1e-06 to 1e+07 m (most "
             "likely the unit is not the one meant)");
   Solid ball = Solid::Ball(1), capsule = Solid::Capsule(1, 2);
   ball.half_extents_m = {0, 0, 1};
   EXPECT_EQ(second(ball),
-            "solids[1] (ball): half_extents_m.z is 1; allowed is 0: a ball has none along z");
+            "solids[1] (ball): half_extents_m.z: 1, allowed: 0, since a ball has none along z");
   capsule.half_extents_m[0] = kNaN;
   EXPECT_EQ(
       second(capsule),
-      "solids[1] (capsule): half_extents_m.x is nan; allowed is 0: a capsule has none along x");
+      "solids[1] (capsule): half_extents_m.x: nan, allowed: 0, since a capsule has none along x");
   capsule = Solid::Capsule(1, 2);
   capsule.points_m = {{1, 2, 3}};
   EXPECT_EQ(second(capsule),
-            "solids[1] (capsule): points_m: there are 1; allowed are 0: a capsule has none");
+            "solids[1] (capsule): points_m: 1, allowed: 0, since a capsule has none");
   EXPECT_EQ(Refusal({.solids = std::vector<Solid>(17, Solid::Hull(std::vector<Vector3>(65536)))}),
-            "solids: their hulls have 1114112 points; allowed are 0 to 1048576");
+            "solids: their hulls have 1114112 points, allowed: 0 to 1048576");
   EXPECT_NE(Refusal({.triangles = {{{1, 2, 3}}, {}}, .solids = {Solid::Ball(1)}}), "")
       << "vertices without triangles are a mesh that was lost";
   EXPECT_EQ(Refusal({.solids = std::vector<Solid>(kShapeSolidsMax + 1)}),
-            "solids: there are 65537; allowed are 0 to 65536");
+            "solids: 65537, allowed: 0 to 65536");
   EXPECT_EQ(kShapeSolidsMax, shape::kSolidsMax) << "the service's limit";
   Triangles broken = Tetrahedron();
   broken.indices[0][0] = 9;

@@ -60,15 +60,38 @@ TEST_F(SolidFileTest, ReadsEachKind) {
 TEST_F(SolidFileTest, AnErrorNamesPlaceAndCause) {
   EXPECT_EQ(Error("solids {\n ball { radius_cm: 2 } }").rfind(path_ + ":2:", 0), 0u)
       << Error("solids {\n ball { radius_cm: 2 } }");
-  EXPECT_EQ(Error(""), path_ + ": solids: there are 0; at least 1 is needed");
-  EXPECT_EQ(Error("solids { ball { radius_m: 1 } } solids { rounding_m: 1 }"),
-            path_ +
-                ": solids[1]: core is missing; allowed are ball, capsule, box, ellipsoid, "
-                "cylinder, cone and hull");
+  EXPECT_EQ(Error(""), path_ + ": solids: 0, allowed: 1 or more");
+  EXPECT_EQ(
+      Error("solids { ball { radius_m: 1 } } solids { rounding_m: 1 }"),
+      path_ +
+          ": solids[1]: core: missing, allowed: ball, capsule, box, ellipsoid, cylinder, cone "
+          "or hull");
   EXPECT_EQ(Error("solids { ball { radius_m: -1 } }"),
-            path_ + ": solids[0] (ball): rounding_m is -1; allowed are 0 to 1e+07 m");
+            path_ + ": solids[0] (ball): radius_m: -1, allowed: 0 to 1e+07 m");
   std::remove(path_.c_str());
   EXPECT_THROW(ReadSolids(path_), BadInput);
+}
+
+TEST_F(SolidFileTest, ALengthThatIsMissingOrOutOfRangeIsNamedAsInTheFile) {
+  const std::string range = ", allowed: 0 to 1e+07 m";
+  const auto error = [this](const std::string& second) {
+    return Error("solids { ball { radius_m: 1 } } solids { " + second + " }").substr(path_.size());
+  };
+  EXPECT_EQ(error("ball {}"), ": solids[1] (ball): radius_m: missing" + range);
+  EXPECT_EQ(error("capsule { radius_m: 1 }"),
+            ": solids[1] (capsule): half_length_m: missing" + range);
+  EXPECT_EQ(error("cone { radius_m: 1 half_length_m: nan }"),
+            ": solids[1] (cone): half_length_m: nan" + range);
+  EXPECT_EQ(error("cylinder { half_length_m: 1 }"),
+            ": solids[1] (cylinder): radius_m: missing" + range);
+  EXPECT_EQ(error("box { half_extents_m { x: 1 z: 1 } }"),
+            ": solids[1] (box): half_extents_m.y: missing" + range);
+  EXPECT_EQ(error("ellipsoid {}"), ": solids[1] (ellipsoid): half_axes_m.x: missing" + range);
+  EXPECT_EQ(error("ellipsoid { half_axes_m { x: 1 y: 1 z: 2e7 } }"),
+            ": solids[1] (ellipsoid): half_axes_m.z: 2e+07" + range);
+  EXPECT_EQ(error("ball { radius_m: 2 } rounding_m: -1"),
+            ": solids[1] (ball): rounding_m: -1.000000" + range);
+  EXPECT_EQ(Error("solids { box { half_extents_m { x: 1 y: 0 z: 1 } } }"), "no error");
 }
 
 TEST_F(SolidFileTest, TheScenesDroneHasItsDeclaredRadius) {
