@@ -99,8 +99,10 @@ void Notices::Look(const Situation& situation, Time now) {
   if (fits && situation.service_heard && situation.other_program.empty() &&
       situation.ended.empty()) {
     LookAtGrant(situation, now);
+    LookAtStep(situation, now);
   } else {
     waiting_ = {};
+    step_ns_.reset();
   }
 }
 
@@ -130,12 +132,12 @@ bool Notices::LookAtClock(const Situation& situation, Time now) {
   }
   if (!wrong_clock_.Lasts("", now, std::chrono::seconds(0))) return false;
   const bool lock_step = facts_.lock_step;
-  Tell(NoticeKind::kWrongClock, "this simulator runs in " + std::string(ModeText(lock_step)) +
-                                    ", but the service of world " + Quoted(facts_.world) + " in " +
-                                    ModeText(!lock_step) + ": set WorldOptions::lock_step to " +
-                                    (lock_step ? "false (--real-time)" : "true (--lock-step)") +
-                                    ", or start collisiond with clock { kind: " +
-                                    (lock_step ? "LOCK_STEP" : "REAL_TIME") + " }");
+  Tell(NoticeKind::kWrongClock,
+       "this simulator runs in " + std::string(ModeText(lock_step)) + ", but world " +
+           Quoted(facts_.world) + " runs in " + ModeText(!lock_step) +
+           ": start the simulator with " + (lock_step ? "--real-time" : "--lock-step") +
+           " (WorldOptions::lock_step = " + (lock_step ? "false" : "true") +
+           "), or collisiond with clock { kind: " + (lock_step ? "LOCK_STEP" : "REAL_TIME") + " }");
   return false;
 }
 
@@ -155,7 +157,7 @@ void Notices::LookAtGrant(const Situation& situation, Time now) {
            InstantText(situation.laggard->clock_ns, 0, 3);
     cause = situation.laggard->name;
   } else if (names.empty()) {
-    whom = "the service, which does not say why";
+    whom = "the service, which names no simulator; see collisionctl status";
   }
   if (!waiting_.Lasts(cause, now, kNoticeAfter)) return;
   const std::int64_t until_ns = situation.granted_until_ns;
@@ -167,9 +169,32 @@ void Notices::LookAtGrant(const Situation& situation, Time now) {
        stays + std::to_string(waiting_.Since(now).count()) + " s: it waits for " + whom);
 }
 
+/// Time goes on, but the step is far ahead: without a word the program would seem to hang.
+void Notices::LookAtStep(const Situation& situation, Time now) {
+  if (!situation.waits || situation.granted_until_ns >= situation.next_ns) {
+    step_ns_.reset();
+    return;
+  }
+  if (step_ns_ != situation.next_ns) long_step_ = {};
+  step_ns_ = situation.next_ns;
+  if (waiting_.Since(now) >= kNoticeAfter) return;  // It stands, and LookAtGrant() has said so.
+  if (!long_step_.Lasts("", now, kNoticeAfter)) return;
+  std::string text = "the next step of this simulator is at " + InstantText(*step_ns_, 0, 3) +
+                     ", and the world's time, which goes on, has come to " +
+                     InstantText(situation.granted_until_ns, 0, 3);
+  if (situation.laggard) {
+    text += "; furthest behind is " + situation.laggard->name + ", at " +
+            InstantText(situation.laggard->clock_ns, 0, 3);
+  }
+  Tell(NoticeKind::kWaiting, text);
+}
+
 void Notices::Refuse(const Rejection& rejection, const std::string& agent) {
   // Said in words of their own: the name is another program's, the clock of the other kind.
-  if (rejection.reason == "REJECTED_ID_OWNED" || rejection.field == "lock_step") return;
+  if (rejection.reason == "REJECTED_ID_OWNED" || rejection.field == "lock_step" ||
+      rejection.field == "clock_kind") {
+    return;
+  }
   const std::string cause = rejection.reason + " " + rejection.field;
   if (refusals_.size() == kRefusalsToldMax || !refusals_.insert(cause).second) return;
   Tell(NoticeKind::kRefused,

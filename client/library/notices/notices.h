@@ -57,6 +57,7 @@ class Notices {
     std::optional<bool> world_lock_step = {};  ///< As the service has said.
     bool waits = false;  ///< Lock-step: for a grant, or for the answer to Join().
     std::int64_t granted_until_ns = 0;
+    std::int64_t next_ns = 0;                   ///< The step that it waits for.
     std::vector<std::string> waiting_for = {};  ///< Whom or what for, as the service says.
     std::optional<Laggard> laggard = {};        ///< Of the others, the one furthest behind.
     std::string other_program = {};             ///< A sentence: who has the simulator's name.
@@ -98,11 +99,13 @@ class Notices {
   void LookForService(const Situation& situation, Time now);
   bool LookAtClock(const Situation& situation, Time now);
   void LookAtGrant(const Situation& situation, Time now);
+  void LookAtStep(const Situation& situation, Time now);
   void Tell(NoticeKind kind, const std::string& text, bool over = false);
 
   const Facts facts_;
-  Lasting no_service_, wrong_clock_, waiting_, name_taken_, ended_;
+  Lasting no_service_, wrong_clock_, waiting_, long_step_, name_taken_, ended_;
   std::optional<std::int64_t> granted_ns_;  ///< When the wait began.
+  std::optional<std::int64_t> step_ns_;     ///< That it waits for.
   std::set<std::string> refusals_;
   /// Agents and the fields they broke, and when that was told.
   std::map<std::pair<std::string, std::string>, Time> breaches_;

@@ -346,6 +346,7 @@ void World::Implementation::TellNotices() {
                  .world_lock_step = world_lock_step_,
                  .waits = ungranted_,
                  .granted_until_ns = granted_until_ns_,
+                 .next_ns = next_ns_,
                  .waiting_for = waiting_.names(),
                  .laggard = waiting_.laggard(),
                  .other_program = waits_for_name(),

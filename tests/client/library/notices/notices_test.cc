@@ -64,11 +64,48 @@ TEST_F(NoticesTest, TheWrongClockIsToldAtOnceWithWhatToChange) {
   ASSERT_EQ(told.size(), 1u);
   EXPECT_EQ(told[0].kind, NoticeKind::kWrongClock);
   EXPECT_TRUE(Has(told[0].text, "lock-step, but")) << told[0].text;
-  EXPECT_TRUE(Has(told[0].text, "WorldOptions::lock_step to false")) << told[0].text;
+  EXPECT_TRUE(Has(told[0].text, "--real-time (WorldOptions::lock_step = false)")) << told[0].text;
   EXPECT_TRUE(Look(wrong, seconds(10)).empty()) << "that no time is granted follows from it";
   const auto over = Look({.service_heard = true, .world_lock_step = true}, seconds(11));
   ASSERT_EQ(over.size(), 1u);
   EXPECT_TRUE(over[0].over);
+}
+
+// Goal:   a clock of the other kind is told once, in the words of its own notice: what the hellos
+//         and the service say of it besides is no further news.
+TEST_F(NoticesTest, TheWrongClockIsToldOnceOnly) {
+  for (const char* field : {"clock_kind", "lock_step"}) {
+    Rejection rejection;
+    rejection.reason = "REJECTED_MISMATCH";
+    rejection.field = field;
+    notices_.Refuse(rejection, "");
+    EXPECT_FALSE(notices_.Take()) << field;
+  }
+}
+
+// Goal:   a step that is far ahead is told after 3 s, and again after a minute, while time goes on;
+//         one of many short ones is not.
+TEST_F(NoticesTest, AStepFarAheadIsToldWhileTimeGoesOn) {
+  Situation waits{.service_heard = true, .world_lock_step = true, .waits = true};
+  waits.next_ns = 2'000'000'000'000;
+  waits.laggard = Laggard{"drones", 4'000'000'000};
+  std::vector<Notice> all;
+  for (int s = 0; s <= 64; ++s) {
+    waits.granted_until_ns = s * 1'000'000'000LL;
+    for (Notice& notice : Look(waits, seconds(s))) all.push_back(notice);
+    if (s == 2) EXPECT_TRUE(all.empty());
+    if (s == 3) EXPECT_EQ(all.size(), 1u);
+  }
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].kind, NoticeKind::kWaiting);
+  EXPECT_EQ(all[0].text,
+            "the next step of this simulator is at 2000.000 s, and the world's time, which goes "
+            "on, has come to 3.000 s; furthest behind is drones, at 4.000 s");
+  for (int s = 65; s < 90; ++s) {
+    waits.granted_until_ns = s * 1'000'000'000LL;
+    waits.next_ns = waits.granted_until_ns + 5;
+    EXPECT_TRUE(Look(waits, seconds(s)).empty()) << s;
+  }
 }
 
 TEST_F(NoticesTest, AWaitNamesThoseWhomTheServiceNames) {
