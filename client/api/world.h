@@ -94,8 +94,9 @@ class World {
 
   /// Announces an agent (with the next Publish(), AdvanceTo() or Poll()) and stages its first
   /// state. Throws std::invalid_argument with field, value and range for what the service would
-  /// refuse: not finite, out of range, name too long. Throws std::length_error if the simulator has
-  /// 65536 agents already.
+  /// refuse: not finite, out of range, name too long. Two agents may have one name: the id tells
+  /// them apart, and a tool that is given the name says that it is that of two. Throws
+  /// std::length_error if the simulator has 65536 agents already.
   Agent AddAgent(const AgentDescription& description, const State& state);
 
   /// Sets states[i] of agents[i] for each i in turn, as Agent::SetState() does, in one call. Throws

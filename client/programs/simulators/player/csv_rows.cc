@@ -25,6 +25,7 @@ struct Columns {
   long double nanoseconds = 1e9L;  // per unit of the time column
   std::optional<Column> position[3];
   std::optional<Column> velocity[3];
+  std::optional<std::size_t> jump;
 };
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
@@ -151,6 +152,10 @@ class Reader {
       *time = index;
       columns_.nanoseconds = name == "time_s" ? 1e9L : name == "time_ms" ? 1e6L : 1;
     }
+    if (name == "jump") {
+      once(columns_.jump.has_value());
+      columns_.jump = index;
+    }
     for (int axis = 0; axis < 3; ++axis) {
       const std::string letter(1, "xyz"[axis]);
       if (const auto scale = LengthScale(name, letter, "")) {
@@ -174,6 +179,13 @@ class Reader {
     return value;
   }
 
+  bool Flag(const std::string& field, const std::string& column) const {
+    if (field != "0" && field != "1") {
+      Fail(column + ": \"" + field.substr(0, 40) + "\", allowed: 0 or 1");
+    }
+    return field == "1";
+  }
+
   void ReadRow(const std::string& line) {
     const auto fields = Split(line);
     if (fields.size() != columns_.count) {
@@ -193,6 +205,7 @@ class Reader {
       row.position_m[axis] = Value(columns_.position[axis], fields);
       row.velocity_m_s[axis] = Value(columns_.velocity[axis], fields);
     }
+    if (columns_.jump) row.jump = Flag(fields[*columns_.jump], "jump");
     auto& rows = result_.rows[agent];
     if (!rows.empty() && row.time_ns <= rows.back().time_ns) {
       Fail("time " + fields[columns_.time.index] + " of agent " + agent +

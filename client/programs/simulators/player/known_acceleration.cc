@@ -41,38 +41,40 @@ double ReachAfter(double seconds, double deviation_max_m_s2, double jerk_max_m_s
 KnownAcceleration::KnownAcceleration(const Trajectory& curve) {
   for (const CsvRow& row : curve.rows()) knots_ns_.push_back(row.time_ns);
   const std::size_t pieces = curve.pieces().size();
-  accelerations_m_s2_.resize(knots_ns_.size());
-  double jump = 0, rounding = 0, greatest = 0;
+  begins_m_s2_.resize(pieces + 1);
+  ends_m_s2_.resize(pieces);
+  const auto follows = [&curve](std::size_t i) { return i > 0 && !curve.rows()[i].jump; };
+  double step = 0, rounding = 0, greatest = 0;
   for (std::size_t i = 0; i < pieces; ++i) {
     const PieceAcceleration on = curve.AccelerationOn(i);
-    const Vector3 before = i == 0 ? on.first_m_s2 : curve.AccelerationOn(i - 1).last_m_s2;
-    accelerations_m_s2_[i] = Towards(before, on.first_m_s2, 0.5);
-    jump = std::max(jump, Apart(before, on.first_m_s2));
+    begins_m_s2_[i] = on.first_m_s2;
+    ends_m_s2_[i] = on.last_m_s2;
     rounding = std::max(rounding, on.rounding_m_s2);
     greatest = std::max({greatest, Length(on.first_m_s2), Length(on.last_m_s2)});
-  }
-  if (pieces == 0) return;
-  accelerations_m_s2_.back() = curve.AccelerationOn(pieces - 1).last_m_s2;
-  if (pieces > 1) {
-    accelerations_m_s2_[0] = Nearest(accelerations_m_s2_[1], accelerations_m_s2_[0], jump / 2);
-    accelerations_m_s2_.back() =
-        Nearest(accelerations_m_s2_[pieces - 1], accelerations_m_s2_.back(), jump / 2);
+    if (!follows(i)) continue;
+    const Vector3 before = curve.AccelerationOn(i - 1).last_m_s2;
+    step = std::max(step, Apart(before, on.first_m_s2));
+    begins_m_s2_[i] = ends_m_s2_[i - 1] = Towards(before, on.first_m_s2, 0.5);
   }
   for (std::size_t i = 0; i < pieces; ++i) {
-    const double slope = Apart(accelerations_m_s2_[i], accelerations_m_s2_[i + 1]) /
-                         SecondsBetween(knots_ns_[i], knots_ns_[i + 1]);
+    const bool before = follows(i), after = i + 1 < pieces && follows(i + 1);
+    if (!before && after) begins_m_s2_[i] = Nearest(ends_m_s2_[i], begins_m_s2_[i], step / 2);
+    if (before && !after) ends_m_s2_[i] = Nearest(begins_m_s2_[i], ends_m_s2_[i], step / 2);
+    const double slope =
+        Apart(begins_m_s2_[i], ends_m_s2_[i]) / SecondsBetween(knots_ns_[i], knots_ns_[i + 1]);
     jerk_max_m_s3_ = std::max(jerk_max_m_s3_, slope * (1 + kComputedMargin));
   }
-  deviation_max_m_s2_ = jump / 2 + kComputedMargin * greatest + rounding;
+  if (pieces > 0 && follows(pieces)) begins_m_s2_[pieces] = ends_m_s2_[pieces - 1];
+  deviation_max_m_s2_ = step / 2 + kComputedMargin * greatest + rounding;
 }
 
 Vector3 KnownAcceleration::At(std::int64_t stamp_ns) const {
   const auto knot = std::lower_bound(knots_ns_.begin(), knots_ns_.end(), stamp_ns);
   const std::size_t i = knot - knots_ns_.begin();
-  if (*knot == stamp_ns) return accelerations_m_s2_[i];
+  if (*knot == stamp_ns) return begins_m_s2_[i];
   const double share =
       SecondsBetween(knots_ns_[i - 1], stamp_ns) / SecondsBetween(knots_ns_[i - 1], knots_ns_[i]);
-  return Towards(accelerations_m_s2_[i - 1], accelerations_m_s2_[i], share);
+  return Towards(begins_m_s2_[i - 1], ends_m_s2_[i - 1], share);
 }
 
 }  // namespace collision::client

@@ -3,10 +3,10 @@
 // The curve's acceleration x'' is linear on each piece and jumps at the knots between two pieces.
 // With a_k the mean of its two limits at knot k, let ā(t) be the continuous, piecewise linear
 // function through the a_k. (At both ends, where there is one limit only, a_k is what is nearest to
-// its neighbour within D of that limit.) A state at s tells ā(s). On each piece x''
-// − ā is linear, and at its ends half of a jump, so nowhere longer than D, half of the greatest
-// jump; and ā changes by no more than J a second, its greatest slope. Hence for all s and t, in
-// either order,
+// its neighbour within D of that limit. Where a row declares a jump of the motion, one curve ends
+// and another one begins.) A state at s tells ā(s). On each piece x'' − ā is linear, and at its
+// ends half of a jump of x'', so nowhere longer than D, half of the greatest one; and ā changes by
+// no more than J a second, its greatest slope. Hence for all s and t, in either order,
 //
 //   |x''(t) − ā(s)| <= |x''(t) − ā(t)| + |ā(t) − ā(s)| <= D + J |t − s|.
 //
@@ -30,7 +30,8 @@ namespace collision::client {
 /// ½ D τ² + ⅙ J τ³ [m]: how far from what was known an agent can be after `seconds`.
 double ReachAfter(double seconds, double deviation_max_m_s2, double jerk_max_m_s3);
 
-/// What is known of the acceleration along a curve, and how well.
+/// What is known of the acceleration along a curve, and how well. Where the curve jumps it begins
+/// anew: D and J say nothing across a jump.
 class KnownAcceleration {
  public:
   explicit KnownAcceleration(const Trajectory& curve);
@@ -39,13 +40,15 @@ class KnownAcceleration {
   Vector3 At(std::int64_t stamp_ns) const;
 
   /// D and J, rounded up: at any two instants s and t of the curve its acceleration at t is within
-  /// D + J |t − s| of At(s). The states taken from the curve keep them, too.
+  /// D + J |t − s| of At(s), if no jump lies between. The states taken from the curve keep them,
+  /// too.
   double deviation_max_m_s2() const { return deviation_max_m_s2_; }
   double jerk_max_m_s3() const { return jerk_max_m_s3_; }
 
  private:
   std::vector<std::int64_t> knots_ns_;
-  std::vector<Vector3> accelerations_m_s2_;  ///< At the knots.
+  std::vector<Vector3> begins_m_s2_;  ///< At the knots, from there on.
+  std::vector<Vector3> ends_m_s2_;    ///< At the ends of the pieces.
   double deviation_max_m_s2_ = 0;
   double jerk_max_m_s3_ = 0;
 };

@@ -1,11 +1,16 @@
 #include "client/programs/simulators/player/player.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "client/library/validation.h"
+#include "client/programs/shared/exit_code.h"
 #include "idl/limits.h"
 
 namespace collision::client {
@@ -48,9 +53,11 @@ class Part {
 
   // Sets the agent's next state; the first one adds it to the world.
   void Stage(std::int64_t stamp_ns, World* world, MotionLog* log) {
-    const State state = StateAt(agent_, stamp_ns, options_);
+    State state = StateAt(agent_, stamp_ns, options_);
     if (handle_) {
+      state.discontinuity = agent_.trajectory.JumpsAt(stamp_ns);
       handle_->SetState(state);
+      if (state.discontinuity) log->Jump(agent_.name, stamp_ns);
       return;
     }
     handle_.emplace(world->AddAgent(Description(agent_, options_), state));
@@ -129,6 +136,30 @@ void RequirePlayable(const PlayedAgent& agent, const PlayerOptions& options,
   }
 }
 
+void RequireNamesOfTheirOwn(const std::vector<PlayedAgent>& agents, const PlayerOptions& options) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < options.half_spaces.size(); ++i) names.insert(HalfSpaceName(i));
+  for (const PlayedAgent& agent : agents) {
+    if (names.insert(agent.name).second) continue;
+    throw BadInput("--agents: \"" + agent.name +
+                   "\" names two agents, allowed: another name for each");
+  }
+}
+
+std::string LateStartText(const std::vector<PlayedAgent>& agents, std::int64_t begin_ns) {
+  std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
+  for (const PlayedAgent& agent : agents) {
+    first_ns = std::min(first_ns, agent.trajectory.begin_ns());
+  }
+  if (agents.empty() || first_ns <= kQuietStartMax) return "";
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const std::string first = std::to_string((begin_ns + first_ns) / kSecond);
+  return "the first row is at t = " + first +
+         " s, but the run begins at t = " + std::to_string(begin_ns / kSecond) +
+         " s of the file, and nothing moves until then; " + "--begin-at " + first +
+         " begins the run there";
+}
+
 std::vector<std::int64_t> StateInstants(const Trajectory& trajectory, double rate_hz,
                                         std::int64_t start_ns) {
   std::vector<std::int64_t> instants;
@@ -146,7 +177,12 @@ std::vector<std::int64_t> StateInstants(const Trajectory& trajectory, double rat
     if (stamp > instants.back()) instants.push_back(stamp);
   }
   if (trajectory.end_ns() > instants.back()) instants.push_back(trajectory.end_ns());
-  return instants;
+  std::vector<std::int64_t> jumps, all;
+  for (const CsvRow& row : trajectory.rows()) {
+    if (row.jump) jumps.push_back(row.time_ns);
+  }
+  std::ranges::set_union(instants, jumps, std::back_inserter(all));
+  return all;
 }
 
 void Play(const std::vector<PlayedAgent>& agents, const PlayerOptions& options, Pace* pace,

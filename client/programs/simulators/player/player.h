@@ -49,8 +49,20 @@ std::optional<KnownAcceleration> KnownOf(const Trajectory& trajectory,
 void RequirePlayable(const PlayedAgent& agent, const PlayerOptions& options,
                      const std::string& file);
 
+/// Throws BadInput if two agents, or an agent and a half-space, would have one name: nobody could
+/// tell their events apart.
+void RequireNamesOfTheirOwn(const std::vector<PlayedAgent>& agents, const PlayerOptions& options);
+
+/// A run's start without any row that is longer than this is told [ns].
+inline constexpr std::int64_t kQuietStartMax = 60'000'000'000;
+
+/// A sentence about file times that begin long after the run does, as those since 1970 do, and what
+/// to do; empty: the first row is due within kQuietStartMax. `agents` are played from 0 on, which
+/// is `begin_ns` of the file's time.
+std::string LateStartText(const std::vector<PlayedAgent>& agents, std::int64_t begin_ns);
+
 /// Stamps of the states of a trajectory, increasing: at its rows, or at its ends and at whole
-/// multiples of 1/rate since `start_ns` between them.
+/// multiples of 1/rate since `start_ns` and its jumps between them.
 std::vector<std::int64_t> StateInstants(const Trajectory& trajectory, double rate_hz,
                                         std::int64_t start_ns);
 

@@ -23,9 +23,12 @@ double Norm(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
 
 void DifferenceVelocities(std::vector<CsvRow>* rows) {
   const std::size_t n = rows->size();
-  for (std::size_t i = 0; i < n && n > 1; ++i) {
-    const CsvRow& before = (*rows)[i == 0 ? 0 : i - 1];
-    const CsvRow& after = (*rows)[std::min(i + 1, n - 1)];
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool begins = i == 0 || (*rows)[i].jump;
+    const bool ends = i + 1 == n || (*rows)[i + 1].jump;
+    if (begins && ends) continue;  // Alone between two jumps: at rest.
+    const CsvRow& before = (*rows)[begins ? i : i - 1];
+    const CsvRow& after = (*rows)[ends ? i : i + 1];
     const double duration = Seconds(before.time_ns, after.time_ns);
     for (int axis = 0; axis < 3; ++axis) {
       (*rows)[i].velocity_m_s[axis] = (after.position_m[axis] - before.position_m[axis]) / duration;
@@ -37,6 +40,10 @@ MotionPiece Hermite(const CsvRow& from, const CsvRow& to) {
   MotionPiece piece{from.time_ns, to.time_ns, {}};
   const double h = Seconds(from.time_ns, to.time_ns);
   for (int axis = 0; axis < 3; ++axis) {
+    if (to.jump) {
+      piece.coefficients[axis] = {from.position_m[axis], from.velocity_m_s[axis], 0, 0};
+      continue;
+    }
     const double slope = (to.position_m[axis] - from.position_m[axis]) / h;
     const double v0 = from.velocity_m_s[axis], v1 = to.velocity_m_s[axis];
     piece.coefficients[axis] = {from.position_m[axis], v0, (3 * slope - 2 * v0 - v1) / h,
@@ -50,13 +57,23 @@ MotionPiece Hermite(const CsvRow& from, const CsvRow& to) {
 Trajectory::Trajectory(std::vector<CsvRow> rows, bool velocities, std::int64_t offset_ns)
     : rows_(std::move(rows)) {
   for (CsvRow& row : rows_) row.time_ns += offset_ns;
+  rows_.front().jump = false;
   if (!velocities) DifferenceVelocities(&rows_);
   for (std::size_t i = 1; i < rows_.size(); ++i) pieces_.push_back(Hermite(rows_[i - 1], rows_[i]));
 }
 
+std::vector<CsvRow>::const_iterator Trajectory::RowFrom(std::int64_t stamp_ns) const {
+  return std::lower_bound(rows_.begin(), rows_.end(), stamp_ns,
+                          [](const CsvRow& r, std::int64_t t) { return r.time_ns < t; });
+}
+
+bool Trajectory::JumpsAt(std::int64_t stamp_ns) const {
+  const auto row = RowFrom(stamp_ns);
+  return row != rows_.end() && row->time_ns == stamp_ns && row->jump;
+}
+
 PositionAndVelocity Trajectory::At(std::int64_t stamp_ns) const {
-  const auto row = std::lower_bound(rows_.begin(), rows_.end(), stamp_ns,
-                                    [](const CsvRow& r, std::int64_t t) { return r.time_ns < t; });
+  const auto row = RowFrom(stamp_ns);
   if (row->time_ns == stamp_ns) return {row->position_m, row->velocity_m_s};
   return Evaluate(pieces_[row - rows_.begin() - 1], stamp_ns);
 }

@@ -19,11 +19,14 @@ struct PieceAcceleration {
 };
 
 /// The cubic Hermite curve through rows of positions and velocities: positions and velocities are
-/// continuous, the acceleration is linear on each piece and largest at one of its ends.
+/// continuous, the acceleration is linear on each piece and largest at one of its ends. Before a
+/// row with a jump the motion goes on as it is at the row before, with constant velocity, and ends
+/// at the jump.
 class Trajectory {
  public:
   /// At least one row, times strictly increasing. Without `velocities` they are central
-  /// differences, one-sided at the ends (and zero for a single row). `offset_ns` is added to every
+  /// differences, one-sided at the ends (and zero for a single row); none reaches across a
+  /// jump. The first row cannot be one. `offset_ns` is added to every
   /// time.
   Trajectory(std::vector<CsvRow> rows, bool velocities, std::int64_t offset_ns);
 
@@ -36,6 +39,9 @@ class Trajectory {
   /// One less than rows; piece i leads from row i to row i + 1.
   const std::vector<MotionPiece>& pieces() const { return pieces_; }
 
+  /// Whether there is a row at `stamp_ns` that is a jump.
+  bool JumpsAt(std::int64_t stamp_ns) const;
+
   /// On the curve; `stamp_ns` in [begin_ns, end_ns]. At a row exactly that row.
   PositionAndVelocity At(std::int64_t stamp_ns) const;
 
@@ -46,6 +52,8 @@ class Trajectory {
   double AccelerationMax() const;
 
  private:
+  std::vector<CsvRow>::const_iterator RowFrom(std::int64_t stamp_ns) const;
+
   std::vector<CsvRow> rows_;
   std::vector<MotionPiece> pieces_;
 };

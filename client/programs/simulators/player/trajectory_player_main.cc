@@ -1,6 +1,7 @@
 // trajectory-player: a simulator that plays a table of positions.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -19,7 +20,8 @@ namespace collision::client {
 namespace {
 
 constexpr std::size_t kAgentsPrinted = 10;
-constexpr double kLookAheadMax = 86400;  // the service's greatest announce_within_s
+constexpr double kLookAheadMax = 86400;              // the service's greatest announce_within_s
+constexpr double kBeginMin = -1e9, kBeginMax = 4e9;  // file times [s]
 
 const std::map<std::string, KnownUse> kKnownUses = {
     {"auto", KnownUse::kAuto}, {"always", KnownUse::kTold}, {"never", KnownUse::kUntold}};
@@ -30,11 +32,14 @@ struct Options {
   MeshOptions mesh;
   std::string file;
   std::vector<std::string> agents;  // ID or ID=NAME; none: all
+  double begin_s = 0;               // file time at which the run begins
   bool quiet = false;
   std::vector<double> planes;  // of half-spaces: normal and offset, one after another
 };
 
-// The selected agents as name -> rows. Throws CsvError if one is not in the file.
+std::int64_t BeginOf(const Options& options) { return std::llround(options.begin_s * 1e9); }
+
+// The selected agents, played from `start_ns` on. Throws CsvError if one is not in the file.
 std::vector<PlayedAgent> Choose(const Options& options, const CsvRows& file,
                                 std::int64_t start_ns) {
   std::vector<std::string> chosen = options.agents;
@@ -49,7 +54,7 @@ std::vector<PlayedAgent> Choose(const Options& options, const CsvRows& file,
     if (rows == file.rows.end())
       throw CsvError(options.file + ": no agent \"" + id + "\" in the file");
     PlayedAgent agent{equals == std::string::npos ? id : choice.substr(equals + 1),
-                      Trajectory(rows->second, file.velocities, start_ns)};
+                      Trajectory(rows->second, file.velocities, start_ns - BeginOf(options))};
     agent.known = KnownOf(agent.trajectory, options.player);
     agents.push_back(std::move(agent));
   }
@@ -59,6 +64,13 @@ std::vector<PlayedAgent> Choose(const Options& options, const CsvRows& file,
 // "agent 9: 187 rows, acceleration at most 5.3 m/s2 (derived)"
 void PrintAgent(const PlayedAgent& agent, const PlayerOptions& options) {
   const bool derived = options.acceleration_max_m_s2 < 0;
+  if (derived && agent.trajectory.pieces().empty()) {
+    std::printf(
+        "agent %s: 1 row, which tells nothing about its acceleration; it is there for that "
+        "instant only\n",
+        agent.name.c_str());
+    return;
+  }
   std::printf("agent %s: %zu rows, acceleration at most %.6g m/s2%s\n", agent.name.c_str(),
               agent.trajectory.rows().size(),
               derived ? agent.trajectory.AccelerationMax() : options.acceleration_max_m_s2,
@@ -81,11 +93,13 @@ std::string SpreadText(std::vector<double> values) {
 void PrintSummary(const Options& options, const std::vector<PlayedAgent>& agents) {
   std::vector<double> greatest, deviations, jerks;
   for (const PlayedAgent& agent : agents) {
+    if (agent.trajectory.pieces().empty()) continue;
     greatest.push_back(agent.trajectory.AccelerationMax());
     if (!agent.known) continue;
     deviations.push_back(agent.known->deviation_max_m_s2());
     jerks.push_back(agent.known->jerk_max_m_s3());
   }
+  if (greatest.empty()) return;
   std::printf("%zu agents, acceleration %s m/s2 (least / median / greatest)\n", agents.size(),
               options.player.acceleration_max_m_s2 < 0
                   ? SpreadText(greatest).c_str()
@@ -112,23 +126,30 @@ void Print(const Options& options, const std::vector<PlayedAgent>& agents) {
   std::fflush(stdout);
 }
 
-double FileSeconds(const CsvRows& file) {
-  std::int64_t last = 0;
+double SecondsToPlay(const Options& options, const CsvRows& file) {
+  std::int64_t last = BeginOf(options);
   for (const auto& [id, rows] : file.rows) last = std::max(last, rows.back().time_ns);
-  return static_cast<double>(last) * 1e-9;
+  return static_cast<double>(last - BeginOf(options)) * 1e-9;
 }
 
 // Checks everything before the program connects.
 void CheckAgents(const Options& options, const CsvRows& file) {
   std::size_t rows = 0, before = 0;
-  for (const PlayedAgent& agent : Choose(options, file, 0)) {
+  const std::vector<PlayedAgent> agents = Choose(options, file, 0);
+  RequireNamesOfTheirOwn(agents, options.player);
+  for (const PlayedAgent& agent : agents) {
     RequirePlayable(agent, options.player, options.file);
     for (const CsvRow& row : agent.trajectory.rows()) before += row.time_ns < 0;
     rows += agent.trajectory.rows().size();
   }
+  const std::string late = LateStartText(agents, BeginOf(options));
+  // A start that was given is meant: with 0, stamps are those of the file.
+  if (!late.empty() && options.simulator.start_ns < 0) {
+    std::fprintf(stderr, "trajectory-player: %s: %s\n", options.file.c_str(), late.c_str());
+  }
   if (before == 0) return;
   const std::string what = options.file + ": " + std::to_string(before) + " of " +
-                           std::to_string(rows) + " rows are before the run's start, time 0";
+                           std::to_string(rows) + " rows are before the run's start (--begin-at)";
   if (before == rows) throw CsvError(what);
   std::fprintf(stderr, "trajectory-player: %s; they are not sent\n", what.c_str());
 }
@@ -173,7 +194,7 @@ int Run(Options options) {
   const CsvRows file = ReadCsv(stream, options.file);
   TakeMesh(&options);
   CheckAgents(options, file);
-  if (options.simulator.seconds <= 0) options.simulator.seconds = FileSeconds(file);
+  if (options.simulator.seconds <= 0) options.simulator.seconds = SecondsToPlay(options, file);
   options.simulator.quiet = options.quiet;
   MotionLog log(options.simulator.motion_log);
   Pace pace(options.simulator);
@@ -194,9 +215,25 @@ int Run(Options options) {
   return kExitOk;
 }
 
+void AddTimeOptions(CLI::App* app, Options* options) {
+  app->add_option("--rate", options->player.rate_hz,
+                  "States per second on the curve; default: at the rows")
+      ->check(Finite(1e9, false));
+  app->add_option("--begin-at", options->begin_s,
+                  "The file's time [s] at which the run begins: that of the first row, say, where "
+                  "times are since 1970")
+      ->check(Between(kBeginMin, kBeginMax))
+      ->capture_default_str();
+  app->add_option("--seconds", options->simulator.seconds,
+                  "Length of the run; default: to the last row")
+      ->check(Finite(kRunSecondsMax, false));
+}
+
 // Returns --radius.
 const CLI::Option* AddPlayerOptions(CLI::App* app, Options* options) {
-  app->add_option("file", options->file, "CSV: time_s, agent_id, x_m, y_m [, z_m] [, vx_m_s, ...]")
+  app->add_option("file", options->file,
+                  "CSV: time_s, agent_id, x_m, y_m [, z_m] [, vx_m_s, ...] [, jump: 1 where the "
+                  "agent is set to this place, 0 where it moves there]")
       ->required();
   app->add_option("--agents", options->agents,
                   "Agents to play, ID or ID=NAME, separated by commas; default: all")
@@ -215,7 +252,7 @@ const CLI::Option* AddPlayerOptions(CLI::App* app, Options* options) {
   app->add_option("--known-acceleration", options->player.known_acceleration,
                   "Whether states tell the acceleration that their curve has: auto (where this "
                   "makes the bound smaller), always or never; never with --acceleration-max")
-      ->transform(CLI::CheckedTransformer(kKnownUses))
+      ->transform(ValueOf(kKnownUses))
       ->default_str("auto");
   app->add_option("--look-ahead", options->player.look_ahead_s,
                   "For auto: compare the bounds after so many seconds, such as announce_within_s")
@@ -223,12 +260,6 @@ const CLI::Option* AddPlayerOptions(CLI::App* app, Options* options) {
       ->capture_default_str();
   app->add_option("--position-error", options->player.position_error_m, "Of every state [m]")
       ->check(Finite(kRadiusMax, true));
-  app->add_option("--rate", options->player.rate_hz,
-                  "States per second on the curve; default: at the rows")
-      ->check(Finite(1e9, false));
-  app->add_option("--seconds", options->simulator.seconds,
-                  "Length of the run; default: to the last row")
-      ->check(Finite(kRunSecondsMax, false));
   app->add_option("--half-space", options->planes,
                   "A floor or a wall: NX,NY,NZ,OFFSET, all x with n·x <= OFFSET [m], n of length "
                   "1; may be given several times")
@@ -266,6 +297,7 @@ int main(int argc, char** argv) {
   CLI::App app("Plays agents' positions from a CSV file into a world of the collision service.",
                "trajectory-player");
   const CLI::Option* radius = AddPlayerOptions(&app, &options);
+  AddTimeOptions(&app, &options);
   AddMeshOptions(&app, &options.mesh);
   AddSimulatorOptions(&app, &options.simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;

@@ -103,6 +103,7 @@ SuggestedBounds SuggestBounds(const SampledAgent& agent, const BoundsRequest& re
   bounds.simulator = agent.simulator;
   bounds.name = agent.name;
   bounds.samples = agent.samples.size();
+  bounds.pieces = needs.acceleration.size();
   bounds.declared = agent.declared;
   bounds.is_proof = request.is_curve && request.quantile >= 1;
   const double margin = bounds.is_proof ? 1 : 1 + request.margin;
@@ -126,9 +127,10 @@ SuggestedBounds GreatestOf(const std::vector<SuggestedBounds>& all, double look_
   SuggestedBounds greatest = all.front();
   greatest.simulator = greatest.name = "";
   greatest.declared.reset();
-  greatest.samples = 0;
+  greatest.samples = greatest.pieces = 0;
   for (const SuggestedBounds& one : all) {
     greatest.samples += one.samples;
+    greatest.pieces += one.pieces;
     const auto raise = [](double value, double* most) { *most = std::max(*most, value); };
     raise(one.acceleration_max_m_s2, &greatest.acceleration_max_m_s2);
     raise(one.deviation_max_m_s2, &greatest.deviation_max_m_s2);

@@ -27,6 +27,8 @@ struct SuggestedBounds {
   std::string simulator;
   std::string name;
   std::size_t samples = 0;
+  /// Between two samples without a jump; without one nothing is known, and no bound means anything.
+  std::size_t pieces = 0;
   bool is_proof = false;             ///< For the curve; else an estimate, margin included.
   double acceleration_max_m_s2 = 0;  ///< Where no state tells its acceleration: M.
   double deviation_max_m_s2 = 0;     ///< Where states tell it: D and J.

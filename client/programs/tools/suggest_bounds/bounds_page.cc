@@ -1,5 +1,6 @@
 #include "client/programs/tools/suggest_bounds/bounds_page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -25,7 +26,16 @@ std::string DeclaredText(const SuggestedBounds& bounds) {
   return text;
 }
 
+/// Of an agent of which nothing is known between two states.
+std::string BareRow(const std::string& name, const SuggestedBounds& bounds) {
+  char text[256];
+  std::snprintf(text, sizeof text, "%-28s %8zu %10s %10s %10s  %-5s %10s %10s  %s\n", name.c_str(),
+                bounds.samples, "-", "-", "-", "-", "-", "-", DeclaredText(bounds).c_str());
+  return text;
+}
+
 std::string Row(const std::string& name, const SuggestedBounds& bounds) {
+  if (bounds.pieces == 0) return BareRow(name, bounds);
   const auto& angular = bounds.angular_acceleration_max_rad_s2;
   char text[256];
   std::snprintf(
@@ -47,18 +57,21 @@ std::string BasisText(const SuggestedBounds& bounds, const BoundsRequest& reques
 
 std::string AgentJson(const SuggestedBounds& bounds) {
   const auto& angular = bounds.angular_acceleration_max_rad_s2;
+  const auto number = [&bounds](double value) {
+    return bounds.pieces > 0 ? JsonNumber(value) : std::string("null");
+  };
   JsonObject json;
   json.TextOrNull("simulator", bounds.simulator)
       .TextOrNull("name", bounds.name)
       .Count("states", bounds.samples)
       .Text("basis", bounds.is_proof ? "proof" : "estimate")
-      .Number("acceleration_max_m_s2", bounds.acceleration_max_m_s2)
+      .Add("acceleration_max_m_s2", number(bounds.acceleration_max_m_s2))
       .Add("known", JsonObject()
-                        .Number("acceleration_max_m_s2", bounds.deviation_max_m_s2)
-                        .Number("jerk_max_m_s3", bounds.jerk_max_m_s3)
+                        .Add("acceleration_max_m_s2", number(bounds.deviation_max_m_s2))
+                        .Add("jerk_max_m_s3", number(bounds.jerk_max_m_s3))
                         .Flag("narrower", bounds.known_is_narrower)
                         .Json())
-      .Number("speed_max_m_s", bounds.speed_max_m_s)
+      .Add("speed_max_m_s", number(bounds.speed_max_m_s))
       .Add("angular_acceleration_max_rad_s2", angular ? JsonNumber(*angular) : "null");
   if (!bounds.declared) return json.Null("declared").Json();
   return json
@@ -94,6 +107,10 @@ std::string BoundsPage(const BoundsSource& source, const std::vector<SuggestedBo
   page += head;
   for (const SuggestedBounds& bounds : all) page += Row(NameIn(bounds), bounds);
   if (all.size() > 1) page += Row("all", GreatestOf(all, request.look_ahead_s));
+  const auto is_bare = [](const SuggestedBounds& bounds) { return bounds.pieces == 0; };
+  if (std::ranges::any_of(all, is_bare)) {
+    page += "\n-: one state alone tells nothing about acceleration; two without a jump do.\n";
+  }
   return page +
          "\nAn agent declares acceleration_max M; or, if its states tell their acceleration, D "
          "and\n"

@@ -45,6 +45,7 @@ MotionFile FromCsv(std::ifstream* file, const std::string& path) {
       sample.stamp_ns = row.time_ns;
       sample.position_m = row.position_m;
       sample.velocity_m_s = row.velocity_m_s;
+      sample.discontinuity = row.jump;
     }
   }
   return motions;

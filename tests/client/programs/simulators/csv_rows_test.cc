@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "client/programs/shared/exit_code.h"
 #include "client/programs/simulators/player/player.h"
 
 namespace collision::client {
@@ -120,6 +121,60 @@ TEST(CsvRows, BadRowsAreReportedWithTheirLine) {
   EXPECT_EQ(ErrorOf(header + "1,,0,0\n"), "file.csv:3: agent_id is empty");
   EXPECT_EQ(ErrorOf(header + "1,a b,0,0\n"), "file.csv:3: agent_id has a space in it");
   EXPECT_EQ(ErrorOf(header + "1e300,a,0,0\n"), "file.csv:3: time is beyond a century from 0");
+}
+
+// Goal:   a column says where an agent jumps; other values than 0 and 1 are refused.
+TEST(CsvRows, JumpsAreMarkedInAColumn) {
+  const std::string header = "time_s,agent_id,x_m,y_m,jump\n0,a,0,0,0\n";
+  const auto rows = Read(header + "1,a,9,0,1\n").rows.at("a");
+  EXPECT_FALSE(rows[0].jump);
+  EXPECT_TRUE(rows[1].jump);
+  EXPECT_EQ(ErrorOf(header + "1,a,9,0,2\n"), "file.csv:3: jump: \"2\", allowed: 0 or 1");
+  EXPECT_EQ(ErrorOf(header + "1,a,9,0,\n"), "file.csv:3: jump: \"\", allowed: 0 or 1");
+  EXPECT_EQ(ErrorOf("time_s,agent_id,x_m,y_m,jump,jump\n"),
+            "file.csv:1: column jump is the second of its kind");
+}
+
+// Goal:   two agents of one name, or of that of a half-space, are refused.
+TEST(Player, NamesAreTheirAgentsOwn) {
+  const auto refusal = [](const std::string& first, const std::string& second, bool floor) {
+    const CsvRows file = Read("time_s,agent_id,x_m,y_m\n0,a,0,0\n1,a,1,1\n");
+    const Trajectory curve(file.rows.at("a"), false, 0);
+    PlayerOptions options;
+    if (floor) options.half_spaces.push_back({{0, 0, 1}, 0});
+    try {
+      RequireNamesOfTheirOwn({{first, curve}, {second, curve}}, options);
+    } catch (const BadInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal("a", "b", true), "");
+  EXPECT_EQ(refusal("a", "half-space-1", false), "");
+  EXPECT_EQ(refusal("x", "x", false),
+            "--agents: \"x\" names two agents, allowed: another name for each");
+  EXPECT_EQ(refusal("a", "half-space-1", true),
+            "--agents: \"half-space-1\" names two agents, allowed: another name for each");
+}
+
+// Goal:   times since 1970 are noticed, and what to do is said; a wait of a minute is none of them.
+TEST(Player, AFirstRowLongAfterTheStartIsTold) {
+  const auto text = [](const std::string& times, std::int64_t begin_ns) {
+    const CsvRows file = Read("time_s,agent_id,x_m,y_m\n" + times);
+    std::vector<PlayedAgent> agents;
+    for (const auto& [name, rows] : file.rows) {
+      agents.push_back({name, Trajectory(rows, false, -begin_ns)});
+    }
+    return LateStartText(agents, begin_ns);
+  };
+  const std::string rows = "1700000000.5,a,0,0\n1700000001,b,0,0\n";
+  EXPECT_EQ(text(rows, 0),
+            "the first row is at t = 1700000000 s, but the run begins at t = 0 s of the file, and "
+            "nothing moves until then; --begin-at 1700000000 begins the run there");
+  EXPECT_EQ(text(rows, 1'700'000'000'000'000'000), "");
+  EXPECT_EQ(text("60,a,0,0\n", 0), "");
+  EXPECT_NE(text("60.1,a,0,0\n", 0), "");
+  EXPECT_EQ(text("60.1,a,0,0\n59,b,0,0\n", 0), "");
 }
 
 // Goal:   the time of one agent must increase; other agents do not matter.

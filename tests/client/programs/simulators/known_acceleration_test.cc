@@ -165,6 +165,47 @@ TEST(KnownOf, TakesTheSmallerBound) {
   EXPECT_FALSE(KnownOf(orbit, options));
 }
 
+// Goal:   D and J hold on either side of jumps, and know nothing of the jumps themselves.
+// Method: random walks with leaps of a kilometre: on each stretch all instants against all, and
+// both bounds as small as the stretches alone have them.
+TEST(KnownAcceleration, BeginsAnewAtAJump) {
+  Random random(13);
+  for (int run = 0; run < 20; ++run) {
+    std::vector<CsvRow> rows = RandomCurve(&random, true).rows();
+    for (std::size_t i = 10; i < rows.size(); i += 7) {
+      rows[i].jump = true;
+      for (std::size_t k = i; k < rows.size(); ++k) rows[k].position_m[0] += 1000;
+    }
+    const Trajectory curve(rows, run % 2 == 0, 0);
+    const KnownAcceleration known(curve);
+    const double D = known.deviation_max_m_s2(), J = known.jerk_max_m_s3();
+    EXPECT_LT(D, 1e4);
+    std::size_t stretch = 0;
+    std::vector<std::size_t> stretches;
+    for (std::size_t i = 0; i < curve.pieces().size(); ++i) {
+      stretch += curve.rows()[i].jump;
+      stretches.push_back(stretch);
+    }
+    for (std::size_t s = 0; s < stretches.size(); ++s) {
+      for (const double share : {0.0, 0.6}) {
+        const MotionPiece& from = curve.pieces()[s];
+        const std::int64_t s_ns =
+            from.t0_ns + std::llround(share * static_cast<double>(from.t1_ns - from.t0_ns));
+        const Vector3 told = known.At(s_ns);
+        for (std::size_t t = 0; t < stretches.size(); ++t) {
+          if (stretches[s] != stretches[t]) continue;
+          const MotionPiece& piece = curve.pieces()[t];
+          const long double h = (piece.t1_ns - piece.t0_ns) * 1e-9L;
+          for (const long double at : {0.0L, 0.3L * h, h}) {
+            const long double apart = std::fabs((piece.t0_ns - s_ns) * 1e-9L + at);
+            ASSERT_LE(Apart(AccelerationAt(piece, at), told), D + J * apart) << s << ", " << t;
+          }
+        }
+      }
+    }
+  }
+}
+
 // Goal:   a single row stands still and knows it.
 TEST(KnownAcceleration, OfASingleRowIsNone) {
   const Trajectory curve({CsvRow{5, {1, 2, 3}, {}, 2}}, false, 0);

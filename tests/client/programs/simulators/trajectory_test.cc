@@ -61,6 +61,37 @@ TEST(Trajectory, StatesKeepTheDerivedBound) {
   }
 }
 
+// Goal:   nothing is derived across a jump: velocities and accelerations are those of the motion
+//         before and after, and what leads to the jump goes on steadily from the row before.
+// Method: 1 m/s along x, a leap of 1 km, then 2 m/s; a row alone between two jumps.
+TEST(Trajectory, NothingIsDerivedAcrossAJump) {
+  CsvRow leap = Row(2, 1001), alone = Row(4, -7), last = Row(5, 50);
+  leap.jump = alone.jump = last.jump = true;
+  const Trajectory curve({Row(0, 0), Row(1, 1), leap, Row(3, 1003), alone, last}, false, 0);
+  const double speeds[] = {1, 1, 2, 2, 0, 0};
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(curve.rows()[i].velocity_m_s[0], speeds[i]) << i;
+  EXPECT_LT(curve.AccelerationMax(), 1e-9);
+  EXPECT_EQ(curve.At(1'500'000'000).position_m[0], 1.5);
+  EXPECT_EQ(curve.At(2'000'000'000).position_m[0], 1001);
+  EXPECT_EQ(curve.At(4'500'000'000).position_m[0], -7);
+  EXPECT_TRUE(curve.JumpsAt(2'000'000'000));
+  EXPECT_FALSE(curve.JumpsAt(1'000'000'000));
+  EXPECT_FALSE(curve.JumpsAt(2'500'000'000));
+  CsvRow first = Row(0, 0);
+  first.jump = true;
+  EXPECT_FALSE(Trajectory({first, Row(1, 1)}, false, 0).JumpsAt(0)) << "there is nothing before";
+}
+
+// Goal:   a jump has a state at any rate.
+TEST(StateInstants, HaveEachJump) {
+  CsvRow leap = Row(0.6, 9);
+  leap.jump = true;
+  const Trajectory curve({Row(0, 0), leap, Row(1, 2)}, false, 0);
+  EXPECT_EQ(StateInstants(curve, 2, 0),
+            (std::vector<std::int64_t>{0, 500'000'000, 600'000'000, 1'000'000'000}));
+  EXPECT_EQ(StateInstants(curve, 0, 0), (std::vector<std::int64_t>{0, 600'000'000, 1'000'000'000}));
+}
+
 // Goal:   states at the rows, or at both ends and the multiples of the period between them.
 TEST(StateInstants, FollowRowsOrRate) {
   const Trajectory curve({Row(0.3, 0), Row(0.5, 1), Row(1.0, 2)}, false, 0);

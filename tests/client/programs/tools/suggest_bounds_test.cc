@@ -209,6 +209,34 @@ TEST(SuggestBounds, LeaveOutJumpsAndWhatTheQuantileSays) {
   EXPECT_LT(SuggestBounds(agent, {}).acceleration_max_m_s2, 1.2);
 }
 
+// Goal:   of states that have no motion between them no bound is told, neither to people nor to
+//         programs, and what all need is that of the others.
+TEST(SuggestBounds, OfOneStateTellNothing) {
+  SampledAgent bare = Swinging(2);
+  bare.name = "bare";
+  bare.samples[1].discontinuity = true;
+  const SuggestedBounds one = SuggestBounds(Swinging(1), {}), two = SuggestBounds(bare, {}),
+                        swing = SuggestBounds(Swinging(20), {});
+  EXPECT_EQ(one.pieces, 0u);
+  EXPECT_EQ(two.pieces, 0u);
+  EXPECT_EQ(swing.pieces, 19u);
+  const std::string page = BoundsPage({"run.rec", "recording"}, {two}, {});
+  EXPECT_NE(page.find("sim/bare                            2          -          -          -  -  "
+                      "            -          -  -\n"),
+            std::string::npos)
+      << page;
+  EXPECT_NE(page.find("one state alone tells nothing about acceleration"), std::string::npos);
+  const std::string json = BoundsJson({"run.rec", "recording"}, {one}, {});
+  EXPECT_EQ(ComplaintsAbout({json.substr(0, json.size() - 1)}), "");
+  EXPECT_NE(json.find("\"acceleration_max_m_s2\":null,\"known\":{\"acceleration_max_m_s2\":null,"
+                      "\"jerk_max_m_s3\":null"),
+            std::string::npos)
+      << json;
+  EXPECT_EQ(GreatestOf({one, swing}, 2).acceleration_max_m_s2, swing.acceleration_max_m_s2);
+  EXPECT_EQ(GreatestOf({one, swing}, 2).pieces, 19u);
+  EXPECT_EQ(BoundsPage({"a.csv", "csv"}, {swing}, {}).find("one state alone"), std::string::npos);
+}
+
 // Goal:   an agent that turns ever faster about one axis needs its angular acceleration.
 TEST(SuggestBounds, FindTheAngularAcceleration) {
   SampledAgent agent = Swinging(50);
