@@ -2,89 +2,12 @@
 //         simulator are there; every state counts once, by what became of it, and faults reach
 //         their sender.
 // Method: one simulator in a world without a bus; the test hands over each message.
-#include "server/intake/agent_registry.h"
-
-#include <gtest/gtest.h>
-
 #include <array>
 
-#include "server/config/config.h"
-#include "tests/server/messages.h"
+#include "tests/server/intake/agent_registry_fixture.h"
 
 namespace collision::server {
 namespace {
-
-class AgentRegistryTest : public testing::Test {
- protected:
-  static constexpr std::int64_t kSecond = 1'000'000'000;
-  static constexpr std::uint64_t kSender = 10;
-
-  static v1::Config ConfigOf(v1::Clock::Kind kind) {
-    v1::Config config;
-    config.mutable_clock()->set_kind(kind);
-    config.set_agents_max(2);
-    config.set_undescribed_after_s(3);
-    return CompleteConfig(config);
-  }
-
-  explicit AgentRegistryTest(v1::Clock::Kind kind = v1::Clock::LOCK_STEP) : config(ConfigOf(kind)) {
-    const std::string name = "alpha";
-    alpha = world.ClaimFor(SimulatorId(name), kSender, 1, &name).simulator;
-    SetTime(0);
-  }
-
-  /// The daemon's clocks.
-  void SetTime(std::int64_t ns) {
-    world.SetReading({.wall_ns = 1'700'000'000 * kSecond + ns, .monotonic_ns = ns});
-  }
-  /// The clock of the simulator comes into force.
-  void SetClock(std::int64_t ns) {
-    alpha->time().Offer({.clock = Instant::FromNanoseconds(ns)});
-    ASSERT_TRUE(alpha->time().Take());
-    world.MoveOn();
-    registry.Enact(alpha);
-  }
-  void Describe(const v1::AgentDescription& wire) {
-    const auto decoded = DecodeDescription(wire);
-    ASSERT_TRUE(std::holds_alternative<detection::AgentDeclaration>(decoded));
-    registry.Describe(alpha, wire, std::get<detection::AgentDeclaration>(decoded));
-    registry.Enact(alpha);
-  }
-  void Describe(std::uint32_t slot) { Describe(Description("alpha", slot)); }
-  void Take(const v1::AgentState& state) {
-    registry.TakeState(alpha, Chunk("alpha"), state);
-    registry.Enact(alpha);
-  }
-  void Remove(std::uint32_t slot, std::uint64_t sequence = 0) {
-    registry.Remove(alpha, slot, sequence);
-    registry.Enact(alpha);
-  }
-  /// The agent of slot 0 is there, with its state at 0 s.
-  void Join() {
-    SetClock(0);
-    Describe(0);
-    Take(State(0, 0, 1));
-    ASSERT_EQ(detector.agents(), 1u);
-  }
-
-  std::vector<v1::RejectionReason> TakeReasons() {
-    std::vector<v1::RejectionReason> reasons;
-    for (const v1::Rejection& rejection : rejections.Take()) reasons.push_back(rejection.reason());
-    return reasons;
-  }
-  const AgentCounters& counters() const { return registry.counters(); }
-
-  const v1::Config config;
-  World world{config};
-  Detectors detectors{config};
-  const detection::Detector& detector = detectors.contacts();
-  Rejections rejections{100, &world};
-  InlineShapeBuilder builder{BuildOptions{.triangles_max = 1000}};
-  ShapeStore store{config, &builder, &world.quotas()};
-  AgentShapes shapes{config, &world, &detectors, &rejections, &store};
-  AgentRegistry registry{config, &world, &detectors, &rejections, &shapes};
-  Simulator* alpha = nullptr;
-};
 
 using Reasons = std::vector<v1::RejectionReason>;
 
@@ -111,87 +34,6 @@ INSTANTIATE_TEST_SUITE_P(EveryOrder, AgentRegistryOrderTest,
                          testing::Values(std::array{0, 1, 2}, std::array{0, 2, 1},
                                          std::array{1, 0, 2}, std::array{1, 2, 0},
                                          std::array{2, 0, 1}, std::array{2, 1, 0}));
-
-/// States of an agent at rest that wait for the end of a round, in which nothing but the newest
-/// counts, unless they break what the agent declares: 2 m/s².
-class AgentRegistryRoundTest : public AgentRegistryTest {
- protected:
-  /// At x after so many milliseconds, which is also the number of the state.
-  void Hear(std::uint64_t ms, double x, bool jumps = false) {
-    v1::AgentState state = State(0, static_cast<std::int64_t>(ms) * 1'000'000, ms);
-    state.mutable_position_m()->set_x(x);
-    state.set_discontinuity(jumps);
-    registry.TakeState(alpha, Chunk("alpha"), state);
-  }
-  std::uint64_t BreachesOfRound() {
-    const std::uint64_t before = detector.counters().breaches;
-    registry.Enact(alpha);
-    return detector.counters().breaches - before;
-  }
-};
-
-TEST_F(AgentRegistryRoundTest, OfStatesThatFollowTheNewestCounts) {
-  Join();
-  for (const std::uint64_t ms : {10, 20, 30}) Hear(ms, 0);
-  EXPECT_EQ(BreachesOfRound(), 0u);
-  EXPECT_EQ(counters().states_accepted, 2u);
-  EXPECT_EQ(alpha->agents().Find(0)->acknowledged_sequence(), 30u);
-}
-
-TEST_F(AgentRegistryRoundTest, AnAgentThatLeapsAndIsBackBeforeTheRoundIsOverHasBrokenItsWord) {
-  Join();
-  Hear(10, 0);
-  Hear(20, 100);
-  Hear(30, 0);
-  Hear(40, 0);
-  Hear(50, 0);
-  EXPECT_EQ(BreachesOfRound(), 2u) << "there and back";
-  EXPECT_EQ(counters().states_accepted, 5u) << "the first, and of these all but the one at 40 ms";
-}
-
-// A metre in 10 ms is a leap; in 2 s it is none.
-TEST_F(AgentRegistryRoundTest, ALeapFromTheStateInForceIsSeenThoughItCouldHaveWalked) {
-  Join();
-  Hear(10, 1);
-  Hear(2000, 1);
-  EXPECT_EQ(BreachesOfRound(), 1u);
-  Hear(2010, 1);
-  Hear(4000, 0);
-  EXPECT_EQ(BreachesOfRound(), 0u);
-}
-
-TEST_F(AgentRegistryRoundTest, ALeapThatIsDeclaredIsNoBreach) {
-  Join();
-  Hear(10, 0);
-  Hear(20, 100, true);
-  Hear(30, 100);
-  EXPECT_EQ(BreachesOfRound(), 0u);
-  EXPECT_EQ(detector.counters().jumps, 1u);
-}
-
-// It sped up to 10 ms, and told before the last two states that it would not any more.
-TEST_F(AgentRegistryRoundTest, ANarrowerBoundCountsFromTheStateAfterIt) {
-  Join();
-  v1::AgentDescription narrower = Description("alpha", 0);
-  narrower.set_revision(2);
-  narrower.set_acceleration_max_m_s2(0);
-  narrower.set_states_sequence(10);
-  Describe(narrower);
-  const auto hear = [&](std::uint64_t ms, double x, double v) {
-    v1::AgentState state = State(0, static_cast<std::int64_t>(ms) * 1'000'000, ms);
-    state.mutable_position_m()->set_x(x);
-    state.mutable_velocity_m_s()->set_x(v);
-    registry.TakeState(alpha, Chunk("alpha"), state);
-  };
-  hear(10, 0.0001, 0.02);
-  hear(20, 0.0004, 0.04);
-  hear(30, 0.0008, 0.04);
-  EXPECT_EQ(BreachesOfRound(), 0u);
-  EXPECT_EQ(counters().states_accepted, 2u) << "nothing but the newest counts";
-  hear(40, 0.0013, 0.06);
-  hear(50, 0.0019, 0.06);
-  EXPECT_EQ(BreachesOfRound(), 1u);
-}
 
 class AgentRegistryWallTest : public AgentRegistryTest {
  protected:
