@@ -354,6 +354,16 @@ void Intake::EndRun(Simulator* simulator, EndCause cause) {
   world_.EndRun(simulator, cause);
 }
 
+std::vector<std::string> Intake::RemoveSilent() {
+  std::vector<std::string> removed;
+  for (const std::uint64_t id : world_.Overdue()) {
+    Simulator* simulator = world_.Find(id);
+    removed.push_back(simulator->name());
+    EndRun(simulator, EndCause::kSilent);
+  }
+  return removed;
+}
+
 void Intake::FollowEnd(const EndedRun& ended) {
   if (world_.ended_runs().Refusal(ended.simulator, ended.run)) return;
   Simulator* const simulator = world_.Find(ended.simulator);

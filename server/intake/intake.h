@@ -82,6 +82,9 @@ class Intake {
   /// Ends the run of a simulator: removes its agents and frees its shapes, as if it had done so.
   void EndRun(Simulator* simulator, EndCause cause);
 
+  /// Ends the runs of World::Overdue() simulators. Returns their names.
+  std::vector<std::string> RemoveSilent();
+
   /// The wall clock was set: every agent leaves the detector, to come back with its next state.
   void ExpelAgents();
 

@@ -100,15 +100,16 @@ void AddShapes(const ShapeCounters& shapes, v1::ServiceStatus* status) {
 }
 
 void AddDetection(const StatusSources& sources, v1::ServiceStatus* status) {
-  const detection::DetectorCounters& detector = sources.counted;
+  const detection::DetectorCounters detector = sources.detectors.counted();
+  const EventCounters events = sources.publisher.event_counters();
   for (int kind = 0; kind < v1::EventStatus_ARRAYSIZE; ++kind) {
     std::string name = LowerCase(v1::EventStatus_Name(static_cast<v1::EventStatus>(kind)));
     name.replace(0, std::string("event").size(), "events");
     Count(name, detector.events[kind], status);
   }
-  Count(std::string(wire::kContactsCounter), sources.events.contacts, status);
-  Count("forecasts_published", sources.events.forecasts, status);
-  Count("forecasts_withheld", sources.events.forecasts_withheld, status);
+  Count(std::string(wire::kContactsCounter), events.contacts, status);
+  Count("forecasts_published", events.forecasts, status);
+  Count("forecasts_withheld", events.forecasts_withheld, status);
   Count("updates_kept", detector.updates_kept, status);
   Count("discontinuities", detector.jumps, status);
   Count("widenings", detector.widenings, status);
@@ -259,11 +260,12 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
     if (status.left_out_size() < wire::kStatusLeftOutMax)
       status.add_left_out(text.substr(0, wire::kStatusLeftOutTextMax));
   }
-  AddExtension("event_log_count", std::to_string(sources.event_log.count()), &status);
-  AddExtension("event_log_hash", fmt::format("{:016x}", sources.event_log.hash()), &status);
-  if (sources.screening_log.count() > 0) {
-    AddExtension("screening_log_hash", fmt::format("{:016x}", sources.screening_log.hash()),
-                 &status);
+  const EventLog& log = sources.publisher.event_log();
+  const EventLog& screening_log = sources.publisher.screening_log();
+  AddExtension("event_log_count", std::to_string(log.count()), &status);
+  AddExtension("event_log_hash", fmt::format("{:016x}", log.hash()), &status);
+  if (screening_log.count() > 0) {
+    AddExtension("screening_log_hash", fmt::format("{:016x}", screening_log.hash()), &status);
   }
   AddExtension("tree_builder",
                LowerCase(v1::Config::TreeBuilder_Name(sources.config.tree_builder())), &status);

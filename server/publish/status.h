@@ -6,11 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "collision_core/detection/detector.h"
 #include "idl/config.pb.h"
 #include "server/bus/bus.h"
 #include "server/intake/intake.h"
-#include "server/publish/event_log.h"
 #include "server/publish/publisher.h"
 #include "server/shapes/shape_store.h"
 #include "server/world/rejections.h"
@@ -34,15 +32,12 @@ struct StatusSources {
   const v1::Config& config;
   const World& world;
   const Detectors& detectors;
-  const detection::DetectorCounters& counted;  ///< Of the contacts of all epochs.
   const Intake& intake;
   const ShapeStore& shapes;
   const Rejections& rejections;
-  const EventLog& event_log;
-  const EventLog& screening_log;
+  const Publisher& publisher;
   const Bus& bus;
-  EventCounters events;
-  StepCounters steps;
+  const StepCounters& steps;
   std::uint64_t queries_per_second = 0;       ///< Of the detector, since the last status.
   std::uint64_t configuration = 0;            ///< ConfigurationDigest().
   std::vector<v1::KeyValue> extensions = {};  ///< Further ones.

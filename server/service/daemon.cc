@@ -22,11 +22,10 @@
 #include "server/publish/reports.h"
 #include "server/publish/status.h"
 #include "server/recording/step_recorder.h"
-#include "server/service/level_step.h"
+#include "server/service/detection_step.h"
 #include "server/service/operator_commands.h"
 #include "server/service/roster_journal.h"
 #include "server/service/service_report.h"
-#include "server/service/share_report.h"
 #include "server/service/silence_report.h"
 #include "server/service/step_limits.h"
 #include "server/shapes/shape_store.h"
@@ -114,8 +113,7 @@ class Daemon::Implementation {
     }
     const bool restarts = claim_.works() && operators_.ObeyAll(inputs);
     if (operators_.TakeNews()) schedule_.Hasten();
-    const bool removed = RemoveSilent();
-    ReportSilence(world_.ReleaseSilent());
+    const bool removed = LetGoOfSilent();
     MoveOn(!inputs.empty() || removed);
     if (restarts) EndEpoch("an operator restarts time");
     if (claim_.works() && world_.EpochIsOver()) EndEpoch("no simulator holds time any more");
@@ -124,7 +122,7 @@ class Daemon::Implementation {
     publisher_.PublishRejections(rejections_.Take());
     publisher_.PublishBreaches(intake_.TakeBreaches());
     if (claim_.speaks()) PublishAnswers();
-    PublishStatus();
+    if (claim_.phase() != ClaimPhase::kWaking && schedule_.Take(world_)) SendStatus();
     for (const std::uint64_t simulator : world_.TakeForgotten()) bus_.Forget(simulator);
     bus_.Flush();
     for (const std::string& line : bus_.TakeWarnings()) Log(spdlog::level::warn, "network", line);
@@ -136,7 +134,7 @@ class Daemon::Implementation {
 
   /// The time until something is due without any input.
   std::chrono::nanoseconds Timeout() const {
-    const bool has_round = claim_.works() && world_.RunsInRounds() && NextRound();
+    const bool has_round = claim_.works() && world_.RunsInRounds() && detection_.NextRound();
     if (has_round || shape_builder_->has_finished() || full_batches_.last_was_full()) {
       return std::chrono::nanoseconds(0);
     }
@@ -197,7 +195,7 @@ class Daemon::Implementation {
     const bool is_lonely = heard.agents() > 0 && !heard.followed();  // its own cable may be out
     if (claim_.phase() == ClaimPhase::kServing || heard.phase() != v1::PHASE_SERVING || is_lonely)
       return;
-    if (!advanced_to_ && world_.FollowEpoch(heard.epoch()))
+    if (!detection_.has_detected() && world_.FollowEpoch(heard.epoch()))
       publisher_.BeginEpoch(world_.epoch(), world_);
     publisher_.ForgetBefore(heard.epoch());
     if (heard.epoch() == world_.epoch())
@@ -219,7 +217,9 @@ class Daemon::Implementation {
         bus_.EndHold(before == ClaimPhase::kWaking);
         if (before == ClaimPhase::kWaking) return;
         if (before == ClaimPhase::kStandby) services_.LogTakeOver(world_.monotonic_ns());
-        BeginTerm();
+        journal_.Open();
+        journal_.SetTerm(claim_.term(), world_.epoch(), world_.monotonic_ns());
+        spdlog::info("serves world \"{}\" in term {}", config_.world(), claim_.term());
         if (before != ClaimPhase::kStandby) return;
         world_.TakeOver();
         reports_ = {};  // everybody is told anew what holds
@@ -237,21 +237,18 @@ class Daemon::Implementation {
     }
   }
 
-  void BeginTerm() {
-    journal_.Open();
-    journal_.SetTerm(claim_.term(), world_.epoch(), world_.monotonic_ns());
-    spdlog::info("serves world \"{}\" in term {}", config_.world(), claim_.term());
-  }
-
-  /// Removes simulators that were silent for too long. False: there was none.
-  bool RemoveSilent() {
-    const std::vector<std::uint64_t> overdue = world_.Overdue();
-    for (const std::uint64_t id : overdue) {
-      Simulator* simulator = world_.Find(id);
-      silence_report_.AddRemoved(simulator->name());
-      intake_.EndRun(simulator, EndCause::kSilent);
+  /// Removes simulators that were silent for too long, releases others, and tells of each that time
+  /// waits for, or goes on without. False: none was removed.
+  bool LetGoOfSilent() {
+    const std::vector<std::string> removed = intake_.RemoveSilent();
+    silence_report_.AddRemoved(removed);
+    const std::vector<std::string> released = world_.ReleaseSilent();
+    if (claim_.phase() == ClaimPhase::kServing) {
+      if (silence_report_.TakeWaited(world_.Waited())) schedule_.Hasten();
+      silence_report_.AddReleased(released);
+      silence_report_.Write(world_.monotonic_ns());
     }
-    return !overdue.empty();
+    return !removed.empty();
   }
 
   /// Everybody has left: brings what they told to its end, and lets time begin anew.
@@ -275,13 +272,13 @@ class Daemon::Implementation {
 
   /// Publishes the end of what was told in this epoch, and begins the next.
   void CloseEpoch(const char* why) {
-    if (claim_.works()) Detect(true);
+    if (claim_.works()) detection_.Detect(true);
     if (claim_.speaks()) PublishAnswers();
     Log(spdlog::level::info, "epoch over",
         fmt::format("epoch {} ends at {} s: {}", world_.epoch(),
                     1e-9 * static_cast<double>(world_.now().nanoseconds()), why));
     detectors_.BeginEpoch();
-    advanced_to_.reset();
+    detection_.BeginEpoch();
     rounds_.Clear();
     world_.BeginEpoch();
     publisher_.BeginEpoch(world_.epoch(), world_);
@@ -291,69 +288,29 @@ class Daemon::Implementation {
     journal_.SetTerm(claim_.term(), world_.epoch(), world_.monotonic_ns());
   }
 
-  /// Tells of each simulator that the world's time waits for, or goes on without.
-  void ReportSilence(const std::vector<std::string>& released) {
-    if (claim_.phase() != ClaimPhase::kServing) return;
-    if (silence_report_.TakeWaited(world_.Waited())) schedule_.Hasten();
-    silence_report_.AddReleased(released);
-    silence_report_.Write(world_.monotonic_ns());
-  }
-
-  /// Brings into effect what was told, moves the world's time as far as it may go, and detects.
+  /// Moves the world's time as far as it may go, and detects.
   void MoveOn(bool inputs) {
     if (!claim_.works()) return;
     if (world_.awaits_others() &&
         services_.MayBegin(world_.agents_in_time(), world_.stands_by(), world_.monotonic_ns())) {
       world_.Begin();
     }
-    if (!world_.RunsInRounds()) {
-      intake_.Enact();
-      world_.MoveOn();
-      return Detect(inputs);
-    }
-    world_.ShareGrant();
-    for (int round = 0; round < kRoundsPerStepMax; ++round) {
-      const std::optional<Instant> next = NextRound();
-      if (!next) return;
-      intake_.Enact();
-      world_.MoveTo(*next);
-      Detect(true);
-      rounds_.ApplyKept();
-    }
+    detection_.MoveOn(inputs);
   }
 
-  /// The end of the round, if it is over: then everything in it is known.
-  std::optional<Instant> NextRound() const {
-    return intake_.AwaitsShapes() ? std::nullopt : world_.NextNow();
-  }
-
-  /// Advances the detectors to the world's time and publishes what they found: contacts first, then
-  /// levels. With a simulated clock only inputs and releases change anything.
-  void Detect(bool inputs) {
-    if (!world_.started()) return;
-    if (world_.simulated() && !inputs && world_.now() == advanced_to_) return;
-    advanced_to_ = world_.now();
-    const auto progress = [this] {
-      if (!progress_ || !progress_()) return;
-      SendStatus();
-      bus_.Flush();
-    };
-    detection::Detector& contacts = detectors_.contacts();
-    contacts.Advance(world_.now(), progress);
-    if (shares_.Take(contacts.owner_work(), world_)) schedule_.Hasten();
-    shares_.Write(world_.monotonic_ns());
-    publisher_.PublishEvents(contacts.events(), world_);
-    for (const auto& clearance : contacts.TakeChangedClearances()) world_.SetClearance(clearance);
-    StepLevels(progress, &detectors_, &world_, &publisher_);
-    StepScreening(progress, &detectors_, &world_, &publisher_);
-    world_.UpdateGrants();
+  /// Of a step that goes on: publishes the status if that is asked for.
+  void TellProgress() {
+    if (!progress_ || !progress_()) return;
+    SendStatus();
+    bus_.Flush();
   }
 
   /// Publishes the rest of what a step has found; the events have left before its grants.
   void PublishAnswers() {
     if (publisher_.EarliestIsDue(world_)) {
-      publisher_.PublishEarliest(advanced_to_ ? detectors_.contacts().Earliest(kEarliestQueriesMax)
-                                              : detection::EarliestAnswer(),
+      publisher_.PublishEarliest(detection_.has_detected()
+                                     ? detectors_.contacts().Earliest(kEarliestQueriesMax)
+                                     : detection::EarliestAnswer(),
                                  world_);
     }
     publisher_.PublishClearances(&world_);
@@ -361,26 +318,19 @@ class Daemon::Implementation {
     publisher_.PublishReports(reports_.TakeDue(world_));
   }
 
-  void PublishStatus() {
-    if (claim_.phase() != ClaimPhase::kWaking && schedule_.Take(world_)) SendStatus();
-  }
-
   void SendStatus() {
-    const detection::DetectorCounters counted = detectors_.counted();
+    const std::uint64_t queries = detectors_.counted().queries;
     publisher_.PublishStatus(
         MakeStatus({.config = config_,
                     .world = world_,
                     .detectors = detectors_,
-                    .counted = counted,
                     .intake = intake_,
                     .shapes = shapes_,
                     .rejections = rejections_,
-                    .event_log = publisher_.event_log(),
-                    .screening_log = publisher_.screening_log(),
+                    .publisher = publisher_,
                     .bus = bus_,
-                    .events = publisher_.event_counters(),
                     .steps = steps_,
-                    .queries_per_second = query_rate_.Take(counted.queries, world_.monotonic_ns()),
+                    .queries_per_second = query_rate_.Take(queries, world_.monotonic_ns()),
                     .configuration = services_.configuration(),
                     .extensions = Extensions()}));
   }
@@ -390,7 +340,7 @@ class Daemon::Implementation {
     services_.AddExtensions(claim_.phase() == ClaimPhase::kStandby, &extensions);
     silence_report_.AddExtensions(&extensions);
     operators_.AddExtensions(&extensions);
-    shares_.AddExtensions(&extensions);
+    detection_.AddExtensions(&extensions);
     AddText("state_failure", journal_.failure() + journal_.awaited(), &extensions);
     AddText(std::string(wire::kEndedRunsExtension),
             world_.ended_runs().TakeTurn(wire::kExtensionValueMax), &extensions);
@@ -419,12 +369,12 @@ class Daemon::Implementation {
   Publisher publisher_;
   Reports reports_;
   StatusSchedule schedule_;
+  DetectionStep detection_{{world_, intake_, rounds_, detectors_, publisher_, schedule_},
+                           [this] { TellProgress(); }};
   Rate query_rate_;
   StepCounters steps_;
   SilenceReport silence_report_{config_.clock().on_silent_simulator() == v1::Clock::RELEASE};
-  ShareReport shares_;
   std::optional<ClockStep> clock_step_;  ///< To be followed.
-  std::optional<Instant> advanced_to_;
   FullBatches full_batches_;
   std::atomic<bool> stopped_ = false;
 };

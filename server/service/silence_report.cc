@@ -44,10 +44,12 @@ void SilenceReport::AddReleased(const std::vector<std::string>& names) {
   for (const std::string& name : names) releases_.Add(name);
 }
 
-void SilenceReport::AddRemoved(const std::string& name) {
-  removals_.Add(name);
-  removed_.insert(removed_.begin(), name);
-  if (removed_.size() > kRemovedShownMax) removed_.pop_back();
+void SilenceReport::AddRemoved(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    removals_.Add(name);
+    removed_.insert(removed_.begin(), name);
+    if (removed_.size() > kRemovedShownMax) removed_.pop_back();
+  }
 }
 
 void SilenceReport::Write(std::int64_t monotonic_ns) {

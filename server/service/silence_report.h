@@ -23,8 +23,8 @@ class SilenceReport {
 
   void AddReleased(const std::vector<std::string>& names);
 
-  /// Removed as silent; `name` may be empty.
-  void AddRemoved(const std::string& name);
+  /// Removed as silent; a name may be empty.
+  void AddRemoved(const std::vector<std::string>& names);
 
   /// Writes what is new.
   void Write(std::int64_t monotonic_ns);
