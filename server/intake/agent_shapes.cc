@@ -55,26 +55,25 @@ AgentShapes::AgentShapes(const v1::Config& config, World* world, Detectors* dete
 void AgentShapes::Refer(Simulator* simulator, std::uint32_t slot, const std::string& hash,
                         Agent* agent) {
   const ShapeUser user(simulator->id(), slot);
+  const bool holds_time = !agent->hypothetical();
   const std::string before = std::exchange(agent->shape_hash, hash);
-  if (!hash.empty()) store_.AddUser(hash, user);
+  if (!hash.empty() && before != hash) {
+    store_.AddUser(hash, user);
+    if (holds_time) ++real_users_[hash];
+  }
   if (!before.empty() && before != hash) {
     store_.RemoveUser(before, user);
-    if (!HoldsTime(before)) wait_.End(before);
+    if (holds_time && --real_users_[before] == 0) {
+      real_users_.erase(before);
+      wait_.End(before);
+    }
   }
   if (hash.empty()) return DropGrown(*simulator, agent);
-  if (!store_.HasWantedTree(hash) && HoldsTime(hash)) wait_.Begin(hash, world_.monotonic_ns());
+  if (holds_time && !store_.HasWantedTree(hash)) wait_.Begin(hash, world_.monotonic_ns());
   Give(*simulator, slot, agent);
   if (before != hash && !store_.ProgressOf(simulator->id(), hash).whole) {
     Await(simulator->IdOf(slot, agent->generation()), hash);
   }
-}
-
-bool AgentShapes::HoldsTime(const std::string& hash) const {
-  return std::ranges::any_of(store_.UsersOf(hash), [this](const ShapeUser& user) {
-    const Simulator* simulator = world_.Find(user.first);
-    const Agent* agent = simulator != nullptr ? simulator->agents().Find(user.second) : nullptr;
-    return agent != nullptr && !agent->hypothetical();
-  });
 }
 
 void AgentShapes::DropGrown(const Simulator& simulator, Agent* agent) {

@@ -1,7 +1,9 @@
 // Which agent has which shape.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -65,8 +67,6 @@ class AgentShapes {
                                               Agent* agent);
   /// The agent uses no grown shape any more.
   void DropGrown(const Simulator& simulator, Agent* agent);
-  /// Whether a real agent refers to this shape: the world's time waits for no other.
-  bool HoldsTime(const std::string& hash) const;
   void Await(const detection::AgentId& id, const std::string& hash);
   void ReportMissing(const Awaited& awaited);
   void ReportRefusal(const std::string& hash, const ReadyShape& ready);
@@ -78,6 +78,8 @@ class AgentShapes {
   GrownShapes grown_;
   OverdueQueue<Awaited> awaited_;
   ShapeWait wait_;
+  /// By hash, the real agents that refer to a shape; none has 0. Time waits for these shapes only.
+  std::map<std::string, std::size_t> real_users_;
 };
 
 }  // namespace collision::server

@@ -382,12 +382,6 @@ std::shared_ptr<const shape::Shape> ShapeStore::Find(const std::string& hash) co
   return known == shapes_.end() ? nullptr : known->second.shape;
 }
 
-const std::set<ShapeUser>& ShapeStore::UsersOf(const std::string& hash) const {
-  static const std::set<ShapeUser> kNone;
-  const auto users = users_.find(hash);
-  return users != users_.end() ? users->second : kNone;
-}
-
 bool ShapeStore::HasWantedTree(const std::string& hash) const {
   const auto known = shapes_.find(hash);
   return known != shapes_.end() && known->second.shape && !known->second.coarse;

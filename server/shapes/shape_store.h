@@ -109,9 +109,6 @@ class ShapeStore {
   /// Whether the wanted tree of a shape is there.
   bool HasWantedTree(const std::string& hash) const;
 
-  /// Those that refer to it, known or not.
-  const std::set<ShapeUser>& UsersOf(const std::string& hash) const;
-
   /// How much has arrived of a shape that this simulator writes.
   ShapeProgress ProgressOf(std::uint64_t simulator, const std::string& hash) const;
 

@@ -34,7 +34,9 @@ class AgentShapesTest : public testing::Test {
 
   /// An agent of this radius, in the detector, that refers to no shape yet.
   Agent* Add(std::uint32_t slot, double radius) {
-    detection::AgentDeclaration declaration{.limits = {.radius = radius}, .shape_awaited = true};
+    return Add(slot, {.limits = {.radius = radius}, .shape_awaited = true});
+  }
+  Agent* Add(std::uint32_t slot, const detection::AgentDeclaration& declaration) {
     Agent* agent = alpha->agents().Add(slot, {1, 1, declaration});
     motion::MotionState state;
     state.stamp = Instant::FromNanoseconds(0);
@@ -98,6 +100,25 @@ TEST_F(AgentShapesTest, AnAgentHasItsShapeFromWhenItIsReady) {
   EXPECT_EQ(agent->declaration.limits.radius, 2);
   EXPECT_EQ(detector.counters().widenings, 0u) << "it lowers no promise";
   EXPECT_TRUE(TakeFields().empty());
+}
+
+TEST_F(AgentShapesTest, TimeWaitsForAShapeWhileARealAgentRefersToIt) {
+  for (const std::uint32_t slot : {0, 1})
+    Add(slot, {.limits = {.radius = 2}, .filter = {.side = kHypotheticalSide}});
+  for (const std::uint32_t slot : {2, 3}) Add(slot, 2);
+  const auto waits_after = [this](std::uint32_t slot, const std::string& to) {
+    Refer(slot, to);
+    return shapes.wait().Holds(0);
+  };
+  EXPECT_FALSE(waits_after(0, hash)) << "a hypothetical agent holds no time";
+  EXPECT_TRUE(waits_after(2, hash));
+  EXPECT_TRUE(waits_after(3, hash));
+  EXPECT_TRUE(waits_after(3, hash)) << "a revision with the same shape";
+  EXPECT_TRUE(waits_after(1, hash));
+  EXPECT_TRUE(waits_after(0, {}));
+  EXPECT_TRUE(waits_after(2, {}));
+  EXPECT_FALSE(waits_after(3, {})) << "the last real one";
+  EXPECT_TRUE(waits_after(2, hash)) << "another attempt";
 }
 
 TEST_F(AgentShapesTest, AnAgentThatRefersToAReadyShapeHasItAtOnce) {
