@@ -11,6 +11,10 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
   const bool is_contact = event.contacts_sequence() > 0;
   if (is_contact ? !contacts->Take(event.contacts_sequence()) : !IsForecast(event.status()))
     return false;
+  return Take(event, is_contact);
+}
+
+bool RevisionFilter::Take(const v1::CollisionEvent& event, bool is_contact) {
   // What has come of an earlier epoch is history.
   if (IsPast(event.stamp())) return is_contact;
   const Pair pair{Id(event.lower()), Id(event.higher()), event.level()};
@@ -18,7 +22,7 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
   const Revision revision{
       event.stamp().service_id(),  event.contact(),          event.revision(), event.status(),
       event.begin().earliest_ns(), event.begin().latest_ns()};
-  const bool repeated = known != nullptr && IsRepeated(event, *known);
+  const bool repeated = known != nullptr && IsRepeated(event, is_contact, *known);
   if (known != nullptr && !repeated && IsOutdated(event, *known)) {
     if (!is_contact) return false;
     // A contact is history: it counts, however late it comes, but once.
@@ -45,8 +49,9 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* con
   return !repeated;
 }
 
-bool RevisionFilter::IsRepeated(const v1::CollisionEvent& event, const Known& known) {
-  if (IsForecast(event.status())) {
+bool RevisionFilter::IsRepeated(const v1::CollisionEvent& event, bool is_contact,
+                                const Known& known) {
+  if (!is_contact) {
     return event.stamp().service_id() != known.newest.service &&
            event.contact() == known.newest.contact && event.status() == known.newest.status &&
            event.begin().earliest_ns() >= known.newest.begin_earliest_ns;

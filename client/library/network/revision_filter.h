@@ -32,6 +32,10 @@ class RevisionFilter {
   /// which the contact itself says; or the repetition by another service of what is known.
   bool IsNew(const v1::CollisionEvent& event, ContactSequence* contacts);
 
+  /// Of a topic that has no sequence of contacts, as that of hypothetical agents: each event counts
+  /// like a forecast. False: it was overtaken, or repeats what is known.
+  bool IsNewest(const v1::CollisionEvent& event) { return Take(event, false); }
+
   /// Contacts that a service which took over has told once more.
   std::uint64_t contacts_repeated() const { return contacts_repeated_; }
 
@@ -56,7 +60,8 @@ class RevisionFilter {
 
   static Agent Id(const v1::AgentId& id);
   static bool IsOutdated(const v1::CollisionEvent& event, const Known& known);
-  static bool IsRepeated(const v1::CollisionEvent& event, const Known& known);
+  static bool IsRepeated(const v1::CollisionEvent& event, bool is_contact, const Known& known);
+  bool Take(const v1::CollisionEvent& event, bool is_contact);
   bool IsPast(const v1::ServiceStamp& stamp);
 
   std::uint64_t contacts_repeated_ = 0;

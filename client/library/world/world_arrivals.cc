@@ -278,7 +278,7 @@ void World::Implementation::Handle(const v1::ScreeningEvent& screening) {
 }
 
 void World::Implementation::KeepScreened(const v1::CollisionEvent& event) {
-  if (!screening_filter_.IsNew(event)) return;
+  if (!screening_filter_.IsNewest(event)) return;
   events_.push_back(FromMessage(event));
   events_.back().hypothetical = true;
 }

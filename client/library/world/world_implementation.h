@@ -19,7 +19,6 @@
 #include "client/library/network/current_service.h"
 #include "client/library/network/held_forecasts.h"
 #include "client/library/network/revision_filter.h"
-#include "client/library/network/screening_filter.h"
 #include "client/library/network/transport.h"
 #include "client/library/notices/notices.h"
 #include "client/library/world/agent_table.h"
@@ -201,7 +200,7 @@ class World::Implementation {
   OtherServices others_;
   ContactSequence contacts_;
   RevisionFilter filter_;
-  ScreeningFilter screening_filter_;
+  RevisionFilter screening_filter_;  ///< Likewise of hypothetical agents.
   ClearanceGate gate_;
   HeldForecasts forecasts_;
   HeldForecasts screened_;  ///< Lock-step: likewise of hypothetical agents, also contacts.

@@ -1,6 +1,7 @@
 // Goal:   of two topics one stream: every contact, no forecast that a later revision overtook, no
 //         copy; bounded memory.
-// Method: events of one pair in the orders that two topics allow, and more pairs than fit.
+// Method: events of one pair in the orders that two topics allow, and more pairs than fit; messages
+//         about hypothetical agents, as two services write them.
 #include "client/library/network/revision_filter.h"
 
 #include <gtest/gtest.h>
@@ -158,6 +159,66 @@ TEST_F(RevisionFilterTest, AnotherServiceGoesOnInItsEpochOrBeginsAnother) {
   }
   contacts_.Restart();
   EXPECT_TRUE(IsNew(Of(4, 2, Event(1, 4, v1::EVENT_CONFIRMED, 1))));
+}
+
+// An owner hears each revision about its hypothetical agents once, whichever service tells it.
+struct Said {
+  std::uint64_t service = 1;
+  std::uint32_t epoch = 1, contact = 1, revision = 1;
+  v1::EventStatus status = v1::EVENT_POSSIBLE;
+  std::int64_t begin_ns = 100;
+  std::uint32_t slot = 0;
+};
+
+class NewestOfPairTest : public testing::Test {
+ protected:
+  bool IsNew(const Said& said) {
+    v1::CollisionEvent event;
+    event.mutable_stamp()->set_service_id(said.service);
+    event.mutable_stamp()->set_epoch(said.epoch);
+    event.mutable_higher()->set_slot(said.slot);
+    event.set_contact(said.contact);
+    event.set_revision(said.revision);
+    event.set_status(said.status);
+    event.mutable_begin()->set_earliest_ns(said.begin_ns);
+    return filter_.IsNewest(event);
+  }
+
+  RevisionFilter filter_;
+};
+
+TEST_F(NewestOfPairTest, OfOneServiceOnlyWhatFollowsIsNew) {
+  EXPECT_TRUE(IsNew({.revision = 3}));
+  EXPECT_FALSE(IsNew({.revision = 3}));
+  EXPECT_FALSE(IsNew({.revision = 2, .begin_ns = 50}));
+  EXPECT_TRUE(IsNew({.revision = 4, .begin_ns = 200}));
+  EXPECT_TRUE(IsNew({.contact = 2}));
+  EXPECT_FALSE(IsNew({.revision = 9})) << "of the contact before";
+  EXPECT_TRUE(IsNew({.slot = 1})) << "of another pair";
+}
+
+TEST_F(NewestOfPairTest, WhatAnotherServiceRepeatsIsNotNew) {
+  IsNew({.revision = 3});
+  EXPECT_FALSE(IsNew({.service = 2, .revision = 7}));
+  EXPECT_TRUE(IsNew({.service = 2, .revision = 8})) << "it tells a revision of its own";
+}
+
+TEST_F(NewestOfPairTest, AnEarlierBeginIsNoRepetition) {
+  IsNew({.revision = 3});
+  EXPECT_TRUE(IsNew({.service = 2, .revision = 1, .begin_ns = 99}));
+  EXPECT_FALSE(IsNew({.service = 1, .revision = 4, .begin_ns = 99}));
+}
+
+TEST_F(NewestOfPairTest, AnotherOutcomeOrContactIsNoRepetition) {
+  IsNew({});
+  EXPECT_TRUE(IsNew({.service = 2, .status = v1::EVENT_DISMISSED}));
+  EXPECT_TRUE(IsNew({.service = 3, .contact = 2, .status = v1::EVENT_DISMISSED}));
+}
+
+TEST_F(NewestOfPairTest, InAnotherEpochAllIsNew) {
+  IsNew({.revision = 3});
+  EXPECT_TRUE(IsNew({.epoch = 2, .revision = 1}));
+  EXPECT_TRUE(IsNew({.service = 2, .epoch = 3, .revision = 1}));
 }
 
 }  // namespace
