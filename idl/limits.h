@@ -43,13 +43,6 @@ inline constexpr double kUnitTolerance = 1e-3;
 /// the radius that its owner computed from the same numbers differ by rounding.
 inline constexpr double kShapeRadiusTolerance = 1e-9;
 
-/// How far the length of a half-space's normal may be from 1.
-inline constexpr double kNormalLengthTolerance = 1e-6;
-
-/// The format of recordings: messages of wire revision 2 (recording.proto). Formats 1 and 2 hold
-/// older ones, which only programs of their time read.
-inline constexpr unsigned kRecordingFormat = 3;
-
 // Counts.
 
 inline constexpr std::uint32_t kSlotMax = 65535;  ///< Slots are reused, so 65536 are enough.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "client/api/shape.h"
+#include "collision_core/shape/fixed_half_space.h"
 
 namespace collision::client {
 namespace {
@@ -146,13 +147,9 @@ void RequireIdentifier(const char* field, const std::string& name) {
 void CheckHalfSpace(const AgentDescription& description) {
   const HalfSpace& half_space = *description.half_space;
   const auto [x, y, z] = half_space.normal;
-  const double length = std::hypot(x, y, z);
-  if (!(std::abs(length - 1) <= wire::kNormalLengthTolerance)) {
-    Refuse("half_space.normal", "length " + Text(length),
-           "length 1 within " + Text(wire::kNormalLengthTolerance));
+  if (const auto refusal = shape::RefusalOfHalfSpace({x, y, z}, half_space.offset_m)) {
+    throw std::invalid_argument(*refusal);
   }
-  CheckNumber("half_space.offset_m", half_space.offset_m, -wire::kCoordinateMax,
-              wire::kCoordinateMax);
   const auto none = [](const char* field, double told) {
     if (told != 0) Refuse(field, Text(told), "0, or left out, of a half-space");
   };

@@ -17,7 +17,6 @@
 namespace collision::server {
 
 static_assert(wire::kMarginMin == shape::kMarginMin);
-static_assert(wire::kNormalLengthTolerance == shape::kNormalLengthTolerance);
 static_assert(wire::kCoordinateMax == shape::kHalfSpaceOffsetMax);
 
 namespace {

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "idl/limits.h"
+#include "idl/recording_format.h"
 #include "server/config/config.h"
 #include "server/process/version.h"
 #include "server/process/write_all.h"
@@ -145,12 +145,8 @@ RecordingReader::RecordingReader(const std::string& path)
   }
   if (!entry.has_header())
     throw std::runtime_error(path + ": byte 0: not a recording: it has no header");
-  const std::uint32_t format = entry.header().format();
-  if (format != wire::kRecordingFormat) {
-    throw std::runtime_error(path + ": byte 0: format " + std::to_string(format) + ", written by " +
-                             "version \"" + entry.header().version() + "\"; this program reads " +
-                             "format " + std::to_string(wire::kRecordingFormat) +
-                             " only: replay it with the version that wrote it");
+  if (const std::string refusal = wire::RefusalOfFormat(entry.header()); !refusal.empty()) {
+    throw std::runtime_error(path + ": byte 0: " + refusal);
   }
   if (!entry.header().has_config()) {
     throw std::runtime_error(path + ": byte 0: the configuration is missing");

@@ -75,7 +75,9 @@ const std::vector<Layer>& Layers() {
       {"server/main.cc", {"server/service/"}},
       // What users of the client library include: nothing of the network.
       {api, {api}},
-      // So that client and service judge motions, meshes and solids alike.
+      // So that client and service judge motions, meshes, solids and half-spaces alike.
+      {library + "validation.cc",
+       {"idl/limits.h", api, validation, core + "shape/fixed_half_space.h"}},
       {library + "world/contract.cc",
        {api, library + "vector.h", library + "world/contract.h",
         core + "motion/contract_between.h"}},

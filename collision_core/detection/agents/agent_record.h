@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "collision_core/detection/agents/bound_margin.h"
 #include "collision_core/detection/agents/history.h"
@@ -34,6 +36,13 @@ struct AgentRecord {
   bool shape_redeclared = false;  ///< The shape was declared anew since the newest state.
   SceneProfile::Features features = 0;
 
+  /// Takes the latest declaration, of an agent with this body. A half-space has no limits.
+  void Declare(const AgentDeclaration& declared,
+               std::shared_ptr<const shape::FixedHalfSpace> half_space) {
+    declaration = declared;
+    if (half_space) declaration.limits = {};
+    declaration.half_space = std::move(half_space);
+  }
   bool is_half_space() const { return declaration.half_space != nullptr; }
   const motion::SpaceTimeBound& bound() const { return history.newest().bound; }
   Instant stamp() const { return bound().state.stamp; }

@@ -37,11 +37,7 @@ AgentIndex AgentTable::Admit(const AgentId& id, const AgentDeclaration& declarat
   agents_[agent.value()] = std::make_unique<AgentRecord>();
   AgentRecord& record = (*this)[agent];
   record.id = id;
-  record.declaration = declaration;
-  if (endless) {
-    record.declaration.limits = {};
-    record.declaration.half_space = declaration.half_space->WithBlocks();
-  }
+  record.Declare(declaration, endless ? declaration.half_space->WithBlocks() : nullptr);
   record.reported_until = stamp;
   record.admitted_from = stamp;
   Owner& owner = owners_[OwnerOf(id)];

@@ -32,10 +32,7 @@ void Reshape(const History::Sample& before, const AgentDeclaration& declaration,
 
 BoundChange ApplyDeclaration(const AgentDeclaration& declaration, AgentRecord* record) {
   CORE_CHECK(!declaration.shape || !declaration.shape_awaited, "an awaited shape is null");
-  const std::shared_ptr<const shape::FixedHalfSpace> half_space = record->declaration.half_space;
-  record->declaration = declaration;
-  record->declaration.half_space = half_space;
-  if (half_space) record->declaration.limits = {};
+  record->Declare(declaration, record->declaration.half_space);
   History::Sample& in_force = record->history.newest();
   const History::Sample before = in_force;
   const motion::MotionLimits& old = before.bound.limits;

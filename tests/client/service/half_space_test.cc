@@ -76,9 +76,9 @@ TEST_F(HalfSpaceTest, WhatIsNoHalfSpaceIsRefusedByField) {
     return "";
   };
   EXPECT_EQ(complaint({.name = "a", .half_space = HalfSpace{{0, 0, 2}, 10}}),
-            "half_space.normal: length 2, allowed: length 1 within 1e-06");
+            "half_space.normal has the length 2; allowed is 1, to within 1e-06");
   EXPECT_EQ(complaint({.name = "a", .half_space = HalfSpace{{0, 0, 1}, 1e16}}),
-            "half_space.offset_m: 1e+16, allowed: -1e+15 to 1e+15");
+            "half_space.offset_m is 1e+16; allowed are -1e+15 to 1e+15");
   EXPECT_EQ(complaint({.name = "a", .radius_m = 1, .half_space = HalfSpace{}}),
             "radius_m: 1, allowed: 0, or left out, of a half-space");
   EXPECT_EQ(complaint({.name = "a", .acceleration_max_m_s2 = 2, .half_space = HalfSpace{}}),

@@ -172,7 +172,7 @@ TEST_F(RecordingTest, RefusesOtherFiles) {
                       "0.0.1"),
             path_ +
                 ": byte 0: format 2, written by version \"0.0.1\"; this program reads format 3 "
-                "only: replay it with the version that wrote it");
+                "only: use the version that wrote it");
   EXPECT_EQ(RefusalOf(std::string("\xff\xff\xff\xff\xff\xff", 6)),
             path_ + ": byte 0: damaged: not a valid entry length");
   EXPECT_THROW(RecordingReader(path_ + ".missing"), std::runtime_error);

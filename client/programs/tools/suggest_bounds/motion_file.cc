@@ -10,8 +10,7 @@
 
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/simulators/player/csv_rows.h"
-#include "idl/limits.h"
-#include "idl/recording.pb.h"
+#include "idl/recording_format.h"
 
 namespace collision::client {
 namespace {
@@ -63,13 +62,6 @@ std::string Left(const std::string& path, std::size_t entry, bool full,
          " states are out of range and left out, the first: " + samples.first_refusal();
 }
 
-void RequireFormat(const v1::RecordingHeader& header, const std::string& path) {
-  if (header.format() == wire::kRecordingFormat) return;
-  throw BadInput(path + ": format " + std::to_string(header.format()) + ", written by version \"" +
-                 header.version() + "\"; this program reads format " +
-                 std::to_string(wire::kRecordingFormat) + " only: use the version that wrote it");
-}
-
 MotionFile FromRecording(std::ifstream* file, const std::string& path) {
   google::protobuf::io::IstreamInputStream stream(file);
   MotionSamples samples;
@@ -80,7 +72,10 @@ MotionFile FromRecording(std::ifstream* file, const std::string& path) {
          google::protobuf::util::ParseDelimitedFromZeroCopyStream(&entry, &stream, &at_end)) {
     ++number;
     if (number == 1 && !entry.has_header()) break;
-    if (entry.has_header()) RequireFormat(entry.header(), path);
+    if (const std::string refusal = wire::RefusalOfFormat(entry.header());
+        entry.has_header() && !refusal.empty()) {
+      throw BadInput(path + ": " + refusal);
+    }
     for (const v1::Input& input : entry.batch().inputs()) {
       if (input.has_agent_description()) samples.Take(input.agent_description());
       if (input.has_agent_states()) samples.Take(input.agent_states());
