@@ -14,6 +14,12 @@ std::size_t DetectorsOf(const std::vector<Level>& levels) {
   return detectors;
 }
 
+detection::Detector& In(detection::Detector& one) { return one; }
+template <typename Special>
+detection::Detector& In(Special& one) {
+  return one.detector();
+}
+
 }  // namespace
 
 Detectors::Detectors(const v1::Config& config)
@@ -30,44 +36,26 @@ void Detectors::AddLevels() {
 
 bool Detectors::Admit(const detection::AgentId& id, const detection::AgentDeclaration& declaration,
                       const motion::MotionState& state, Instant effective_from) {
-  if (server::IsHypothetical(declaration)) {
-    return Screening().Admit(id, declaration, state, effective_from);
-  }
-  if (!contacts_.Admit(id, declaration, state, effective_from)) return false;
-  EachOfLevels([&](GrownDetector& one) { one.Admit(id, declaration, state, effective_from); });
-  if (screening_) screening_->Admit(id, declaration, state, effective_from);
+  const auto admit = [&](auto& one) { return one.Admit(id, declaration, state, effective_from); };
+  if (server::IsHypothetical(declaration)) return admit(Screening());
+  if (!admit(contacts_)) return false;
+  EachOther(admit);
   return true;
 }
 
 detection::UpdateOutcome Detectors::Update(const detection::AgentId& id,
                                            const motion::MotionState& state,
                                            Instant effective_from) {
-  if (screening_) {
-    const auto outcome = screening_->detector().Update(id, state, effective_from);
-    if (IsHypothetical(id)) return outcome;
-  }
-  EachOfLevels([&](GrownDetector& one) { one.detector().Update(id, state, effective_from); });
-  return contacts_.Update(id, state, effective_from);
+  return Tell(id, [&](auto& one) { return In(one).Update(id, state, effective_from); });
 }
 
 bool Detectors::Redeclare(const detection::AgentId& id,
                           const detection::AgentDeclaration& declaration, Instant effective_from) {
-  if (screening_) {
-    const bool is_known = screening_->Redeclare(id, declaration, effective_from);
-    if (IsHypothetical(id)) return is_known;
-  }
-  if (!contacts_.Redeclare(id, declaration, effective_from)) return false;
-  EachOfLevels([&](GrownDetector& one) { one.Redeclare(id, declaration, effective_from); });
-  return true;
+  return Tell(id, [&](auto& one) { return one.Redeclare(id, declaration, effective_from); });
 }
 
 bool Detectors::Remove(const detection::AgentId& id) {
-  if (screening_) {
-    const bool is_hypothetical = IsHypothetical(id), is_known = screening_->Remove(id);
-    if (is_hypothetical) return is_known;
-  }
-  EachOfLevels([&](GrownDetector& one) { one.Remove(id); });
-  return contacts_.Remove(id);
+  return Tell(id, [&](auto& one) { return one.Remove(id); });
 }
 
 const motion::MotionState* Detectors::StateOf(const detection::AgentId& id) const {
@@ -79,21 +67,15 @@ motion::BrokenBound Detectors::ExplainLastBreach(const detection::AgentId& id) c
 }
 
 void Detectors::SetHeardUntil(const detection::OwnerId& owner, Instant until) {
-  contacts_.SetHeardUntil(owner, until);
-  EachOfLevels([&](GrownDetector& one) { one.detector().SetHeardUntil(owner, until); });
-  if (screening_) screening_->detector().SetHeardUntil(owner, until);
+  Each([&](auto& one) { In(one).SetHeardUntil(owner, until); });
 }
 
 void Detectors::SetPairShare(const detection::OwnerId& owner, const Share& share) {
-  contacts_.SetPairShare(owner, share);
-  EachOfLevels([&](GrownDetector& one) { one.detector().SetPairShare(owner, share); });
-  if (screening_) screening_->detector().SetPairShare(owner, share);
+  Each([&](auto& one) { In(one).SetPairShare(owner, share); });
 }
 
 void Detectors::VoidOwner(const detection::OwnerId& owner, Instant from) {
-  contacts_.VoidOwner(owner, from);
-  EachOfLevels([&](GrownDetector& one) { one.detector().VoidOwner(owner, from); });
-  if (screening_) screening_->detector().VoidOwner(owner, from);
+  Each([&](auto& one) { In(one).VoidOwner(owner, from); });
 }
 
 void Detectors::AdvanceLevels(Instant now, const std::function<void()>& progress) {

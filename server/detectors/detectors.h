@@ -72,9 +72,24 @@ class Detectors {
   detection::DetectorCounters counted() const;
 
  private:
+  /// Makes the call to each detector behind that of contacts.
   template <typename Call>
-  void EachOfLevels(const Call& call) {
+  void EachOther(const Call& call) {
     for (LevelDetector& level : levels_) level.Each(call);
+    if (screening_) call(*screening_);
+  }
+  template <typename Call>
+  void Each(const Call& call) {
+    call(contacts_);
+    EachOther(call);
+  }
+  /// Makes the call to each detector that has the agent; returns what the one says that decides.
+  template <typename Call>
+  auto Tell(const detection::AgentId& id, const Call& call) {
+    if (IsHypothetical(id)) return call(*screening_);
+    const auto decided = call(contacts_);
+    EachOther(call);
+    return decided;
   }
   void AddLevels();
   ScreeningDetector& Screening();

@@ -15,21 +15,21 @@ GrownDetector::GrownDetector(const detection::DetectorOptions& options, double m
       shape_bytes_max_(shape_bytes_max),
       detector_(options) {}
 
-void GrownDetector::Admit(const detection::AgentId& id,
+bool GrownDetector::Admit(const detection::AgentId& id,
                           const detection::AgentDeclaration& declaration,
                           const motion::MotionState& state, Instant effective_from) {
-  detector_.Admit(id, GrownOf(id, declaration), state, effective_from);
+  return detector_.Admit(id, GrownOf(id, declaration), state, effective_from);
 }
 
-void GrownDetector::Redeclare(const detection::AgentId& id,
+bool GrownDetector::Redeclare(const detection::AgentId& id,
                               const detection::AgentDeclaration& declaration,
                               Instant effective_from) {
-  detector_.Redeclare(id, GrownOf(id, declaration), effective_from);
+  return detector_.Redeclare(id, GrownOf(id, declaration), effective_from);
 }
 
-void GrownDetector::Remove(const detection::AgentId& id) {
-  detector_.Remove(id);
+bool GrownDetector::Remove(const detection::AgentId& id) {
   Drop(id);
+  return detector_.Remove(id);
 }
 
 void GrownDetector::Advance(Instant now, const std::function<void()>& progress) {

@@ -29,11 +29,11 @@ class GrownDetector {
   GrownDetector(const detection::DetectorOptions& options, double margin, const Level* level,
                 std::uint64_t shape_bytes_max);
 
-  void Admit(const detection::AgentId& id, const detection::AgentDeclaration& declaration,
+  bool Admit(const detection::AgentId& id, const detection::AgentDeclaration& declaration,
              const motion::MotionState& state, Instant effective_from);
-  void Redeclare(const detection::AgentId& id, const detection::AgentDeclaration& declaration,
+  bool Redeclare(const detection::AgentId& id, const detection::AgentDeclaration& declaration,
                  Instant effective_from);
-  void Remove(const detection::AgentId& id);
+  bool Remove(const detection::AgentId& id);
 
   /// Of a step: gives up shapes that no agent has any more, then as Detector::Advance().
   void Advance(Instant now, const std::function<void()>& progress);
