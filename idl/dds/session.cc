@@ -168,20 +168,18 @@ class DdsSession::Implementation {
     for (clearance.chunk = 0; clearance.chunk <= kChunkMax; ++clearance.chunk) {
       Withdraw(dds::TopicId::kClearance, &clearance);
     }
-    collision_v1_AgentBreach breach{};
-    breach.simulator_id = simulator_id;
-    for (const std::uint32_t slot : std::exchange(breached_[simulator_id], {})) {
-      breach.slot = slot;
-      Withdraw(dds::TopicId::kAgentBreach, &breach);
-    }
-    breached_.erase(simulator_id);
-    collision_v1_ScreeningEvent screening{};
-    screening.simulator_id = simulator_id;
-    for (const std::uint32_t pair_slot : std::exchange(screened_[simulator_id], {})) {
-      screening.pair_slot = pair_slot;
-      Withdraw(dds::TopicId::kScreening, &screening);
-    }
-    screened_.erase(simulator_id);
+    const auto withdraw = [&]<typename Key>(dds::TopicId topic, std::uint32_t Key::*slot,
+                                            std::map<std::uint64_t, Slots>* written) {
+      Key key{};
+      key.simulator_id = simulator_id;
+      for (const std::uint32_t one : (*written)[simulator_id]) {
+        key.*slot = one;
+        Withdraw(topic, &key);
+      }
+      written->erase(simulator_id);
+    };
+    withdraw(dds::TopicId::kAgentBreach, &collision_v1_AgentBreach::slot, &breached_);
+    withdraw(dds::TopicId::kScreening, &collision_v1_ScreeningEvent::pair_slot, &screened_);
   }
 
   void Flush() {
@@ -266,6 +264,8 @@ class DdsSession::Implementation {
   }
 
  private:
+  using Slots = std::set<std::uint32_t>;
+
   std::string PartitionOf(const dds::NewWriter& writer) const {
     return dds::Printable(dds::PartitionOf(endpoints_.readers[writer.topic], writer.writer));
   }
@@ -298,9 +298,9 @@ class DdsSession::Implementation {
   const dds::Endpoints endpoints_;
   const dds_entity_t waitset_;
   dds::Intake intake_;
-  std::uint64_t service_id_ = 0;  ///< Of the statuses that were written; 0: none.
-  std::map<std::uint64_t, std::set<std::uint32_t>> breached_;  ///< Slots, by simulator.
-  std::map<std::uint64_t, std::set<std::uint32_t>> screened_;  ///< Pair slots, likewise.
+  std::uint64_t service_id_ = 0;             ///< Of the statuses that were written; 0: none.
+  std::map<std::uint64_t, Slots> breached_;  ///< By simulator.
+  std::map<std::uint64_t, Slots> screened_;  ///< Of pairs, likewise.
   std::uint64_t writes_failed_ = 0;
   std::uint64_t senders_ignored_ = 0;
   std::optional<dds::Waker> waker_;
