@@ -23,8 +23,7 @@ inline constexpr double kScreeningShare = 0.25;
 
 /// Of the detector of contacts, beside those of `level_detectors`. Requires a complete
 /// configuration.
-detection::DetectorOptions DetectorOptionsOf(const v1::Config& config,
-                                             std::size_t level_detectors = 0);
+detection::DetectorOptions DetectorOptionsOf(const v1::Config& config, std::size_t level_detectors);
 
 /// Of one of the `level_detectors` of levels, which is at least 1: one that announces what may
 /// begin within `look_ahead` [s].

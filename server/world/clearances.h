@@ -45,8 +45,7 @@ class Clearances {
   /// Replaces the clearance of the agent in `slot`, and marks its chunk, which may wait if the
   /// clearance only rises. That of a `hypothetical` agent holds no time: clear_until() is that of
   /// the others.
-  void Set(std::uint32_t slot, const detection::AgentClearance& clearance,
-           bool hypothetical = false);
+  void Set(std::uint32_t slot, const detection::AgentClearance& clearance, bool hypothetical);
 
   /// Likewise until when the agent crosses no level of this index. It is not published: only when
   /// a state of the agent is wanted depends on it.

@@ -35,7 +35,7 @@ class ClearanceGate {
   /// given up.
   static constexpr std::size_t kWaitingMax = 1024;
 
-  explicit ClearanceGate(std::chrono::nanoseconds patience = kPatience) : patience_(patience) {}
+  explicit ClearanceGate(std::chrono::nanoseconds patience) : patience_(patience) {}
 
   void Add(const v1::Clearance& clearance, Time now);
 

@@ -40,7 +40,7 @@ class Arrival {
   using Time = std::chrono::steady_clock::time_point;
 
   /// `incarnation`: of this program, not 0.
-  Arrival(std::uint32_t run, std::uint32_t incarnation, bool lock_step = false)
+  Arrival(std::uint32_t run, std::uint32_t incarnation, bool lock_step)
       : run_(run),
         incarnation_(incarnation),
         least_(lock_step ? kResendAfterInLockStep : kResendAfter) {}

@@ -53,7 +53,7 @@ class OwnerQueues {
   static constexpr std::size_t kDebtorsMax = 4096;
 
   /// Δt [s], and the units of a slice; 0: slices are not limited.
-  explicit OwnerQueues(double temporal_resolution, std::uint64_t slice = 0)
+  OwnerQueues(double temporal_resolution, std::uint64_t slice)
       : temporal_resolution_(temporal_resolution), slice_(slice) {}
 
   /// A pair of agents of these owners is tracked from now on, or no longer. Requires that the slot

@@ -62,7 +62,7 @@ TEST(Level, DetectorsShareTheBudgetOfAStep) {
   v1::Config config = CompleteConfig({});
   config.set_work_units_per_us(1);
   config.set_step_budget_us(1000);
-  EXPECT_EQ(DetectorOptionsOf(config).work_units_per_step, 1000u);
+  EXPECT_EQ(DetectorOptionsOf(config, 0).work_units_per_step, 1000u);
   EXPECT_EQ(DetectorOptionsOf(config, 2).work_units_per_step, 750u);
   EXPECT_EQ(LevelDetectorOptions(config, 2, 5).work_units_per_step, 125u);
   EXPECT_EQ(LevelDetectorOptions(config, 2, 5).announce_within, 5);

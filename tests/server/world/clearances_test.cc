@@ -14,7 +14,7 @@ using Chunks = std::set<std::uint32_t>;
 
 TEST(Clearances, WhatIsNotTakenInIsPublishedAgainNowAndThen) {
   Clearances clearances;
-  clearances.Set(130, {});
+  clearances.Set(130, {}, false);
   EXPECT_EQ(clearances.TakeChanged(0, 0, {}), Chunks{2});
   std::int64_t now_ns = 0;
   clearances.Publish(2, 7, now_ns);
@@ -43,23 +43,23 @@ constexpr Instant kSoon = Instant::FromNanoseconds(4);
 /// With one clearance, which was published.
 Clearances Known(const detection::AgentClearance& clearance) {
   Clearances clearances;
-  clearances.Set(5, clearance);
+  clearances.Set(5, clearance, false);
   EXPECT_EQ(clearances.TakeChanged(0, kWait, kSoon), Chunks{0}) << "a new one does not wait";
   return clearances;
 }
 
 TEST(Clearances, OneThatOnlyRisesWaitsForOthersOfItsChunk) {
   Clearances clearances = Known({.clear_until = At(5)});
-  clearances.Set(5, {.clear_until = At(6)});
+  clearances.Set(5, {.clear_until = At(6)}, false);
   EXPECT_EQ(clearances.TakeChanged(100, kWait, kSoon), Chunks{});
-  clearances.Set(5, {.clear_until = At(7)});
+  clearances.Set(5, {.clear_until = At(7)}, false);
   EXPECT_EQ(clearances.TakeChanged(109, kWait, kSoon), Chunks{});
   EXPECT_EQ(clearances.TakeChanged(110, kWait, kSoon), Chunks{0})
       << "the first has waited long enough";
   EXPECT_EQ(clearances.TakeChanged(200, kWait, kSoon), Chunks{});
-  clearances.Set(5, {.clear_until = At(8)});
+  clearances.Set(5, {.clear_until = At(8)}, false);
   EXPECT_EQ(clearances.TakeChanged(200, 0, kSoon), Chunks{0});
-  clearances.Set(5, {.clear_until = At(9)});
+  clearances.Set(5, {.clear_until = At(9)}, false);
   clearances.MarkChanged(6);
   EXPECT_EQ(clearances.TakeChanged(300, kWait, kSoon), Chunks{0});
   EXPECT_EQ(clearances.TakeChanged(400, kWait, kSoon), Chunks{}) << "it went with the other";
@@ -79,7 +79,7 @@ TEST(Clearances, WhatReadersMustKnowDoesNotWait) {
   changes[7].unsettled_until = At(9);
   for (detection::AgentClearance& change : changes) {
     Clearances clearances = Known(before);
-    clearances.Set(5, change);
+    clearances.Set(5, change, false);
     EXPECT_EQ(clearances.TakeChanged(0, kWait, kSoon), Chunks{0}) << &change - changes.data();
   }
 }
@@ -87,12 +87,12 @@ TEST(Clearances, WhatReadersMustKnowDoesNotWait) {
 TEST(Clearances, OneThatReadersTakeForExpiringSoonDoesNotWait) {
   for (const bool expires : {false, true}) {
     Clearances clearances = Known({.clear_until = expires ? kSoon : At(5)});
-    clearances.Set(5, {.clear_until = At(90)});
-    clearances.Set(5, {.clear_until = At(91)});
+    clearances.Set(5, {.clear_until = At(90)}, false);
+    clearances.Set(5, {.clear_until = At(91)}, false);
     EXPECT_EQ(clearances.TakeChanged(0, kWait, kSoon).size(), expires ? 1u : 0u);
   }
   Clearances clearances = Known({.clear_until = At(1), .not_clear = true});
-  clearances.Set(5, {.clear_until = At(2), .not_clear = true});
+  clearances.Set(5, {.clear_until = At(2), .not_clear = true}, false);
   EXPECT_EQ(clearances.TakeChanged(0, kWait, kSoon), Chunks{}) << "it is not clear all the same";
 }
 

@@ -34,7 +34,7 @@ class ClearanceGateTest : public testing::Test {
   using Numbers = std::vector<std::uint64_t>;
   ContactSequence contacts_;
   ClearanceGate::Newest newest_;
-  ClearanceGate gate_;
+  ClearanceGate gate_{ClearanceGate::kPatience};
 };
 
 TEST_F(ClearanceGateTest, WithoutContactsEverythingPasses) {

@@ -48,7 +48,7 @@ class ArrivalTest : public testing::Test {
     return arrival_.TakeDue(now_);
   }
 
-  Arrival arrival_{kRun, kOwn};
+  Arrival arrival_{kRun, kOwn, false};
   Arrival::Time now_{seconds(100)};
 };
 
@@ -63,7 +63,7 @@ TEST_F(ArrivalTest, WhatIsMissingIsSentAgainEverMoreRarely) {
   for (const auto& [descriptions, states, stated] :
        {std::tuple(4, 9, 5), std::tuple(5, 8, 5), std::tuple(5, 9, 4)}) {
     SCOPED_TRACE(descriptions * 100 + states * 10 + stated);
-    arrival_ = Arrival(kRun, kOwn);
+    arrival_ = Arrival(kRun, kOwn, false);
     Write(5, 9, 5);
     Report(descriptions, states, stated);
     for (const int wait : {1, 2, 4, 8, 8}) {
@@ -228,7 +228,7 @@ TEST_F(ArrivalTest, ALowerRunOfADeadProgramNeedsNothing) {
 // Goal:   what was written while a lower run still counted as alive was refused.
 TEST_F(ArrivalTest, AfterAWaitEverythingIsSentAtOnce) {
   for (const bool end_is_heard : {true, false}) {
-    arrival_ = Arrival(kRun, kOwn);
+    arrival_ = Arrival(kRun, kOwn, false);
     Write(5, 9, 5);
     ReportOther(kRun - 1, true);
     if (end_is_heard) ReportOther(kRun - 1, false);

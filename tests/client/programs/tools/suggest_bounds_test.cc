@@ -13,7 +13,6 @@
 #include "client/programs/tools/suggest_bounds/bounds_page.h"
 #include "client/programs/tools/suggest_bounds/command.h"
 #include "client/programs/tools/suggest_bounds/motion_file.h"
-#include "idl/limits.h"
 #include "idl/recording_format.h"
 #include "tests/client/programs/tools/collisionctl/json/schema_check.h"
 #include "tests/support/random.h"
