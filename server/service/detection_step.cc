@@ -14,12 +14,22 @@ void DetectionStep::MoveOn(bool inputs) {
   world.ShareGrant();
   for (int round = 0; round < kRoundsPerStepMax; ++round) {
     const std::optional<Instant> next = NextRound();
-    if (!next) return;
+    if (!next) {
+      if (inputs) TakeLast();
+      return;
+    }
     parts_.intake.Enact();
     world.MoveTo(*next);
     Detect(true);
     parts_.rounds.ApplyKept();
   }
+}
+
+// Who has finished may still remove its agents.
+void DetectionStep::TakeLast() {
+  if (parts_.intake.AwaitsShapes() || !parts_.world.HasNoRoundLeft()) return;
+  parts_.intake.Enact();
+  Detect(true);
 }
 
 void DetectionStep::Detect(bool inputs) {

@@ -54,6 +54,7 @@ class DetectionStep {
   }
 
  private:
+  void TakeLast();
   void DetectContacts();
   void DetectLevels();
   void Screen();

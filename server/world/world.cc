@@ -172,29 +172,40 @@ std::size_t World::SimulatorsToCome() const {
   return with_clock == 0 ? 0 : simulators_awaited_ - std::min(simulators_awaited_, with_clock);
 }
 
-std::optional<Instant> World::NextNow() const {
-  Instant told = Instant::Never();  // by all who hold time
-  Instant first = Instant::Never();
-  Instant last = Instant::Always();
+World::Told World::ToldByAll() const {
+  Told all;
   for (const auto& [id, simulator] : simulators_) {
     const SimulatorTime& time = simulator.time();
     const std::optional<Instant> clock = time.stands_at();
     if (!clock) continue;
     // Who has finished and left is not waited for, but its last round counts.
     if (!simulator.holds_time() && (simulator.released() || !time.has_finished())) continue;
-    told = std::min(told, time.told_until());
-    first = std::min(first, *clock);
-    last = std::max(last, *clock);
+    all.until = std::min(all.until, time.told_until());
+    all.first = std::min(all.first, *clock);
+    all.last = std::max(all.last, *clock);
   }
-  if (first.is_never() || !silence_.roster().complete()) return std::nullopt;
+  return all;
+}
+
+std::optional<Instant> World::NextNow() const {
+  const Told told = ToldByAll();
+  if (told.first.is_never() || !silence_.roster().complete()) return std::nullopt;
   if (!started_) {
     if (SimulatorsToCome() > 0 || awaits_others()) return std::nullopt;
-    return told >= first ? std::optional(first) : std::nullopt;
+    return told.until >= told.first ? std::optional(told.first) : std::nullopt;
   }
-  if (!RunsInRounds()) return std::max(now_, first);
+  if (!RunsInRounds()) return std::max(now_, told.first);
   // Of those who have no further step the last round is still to be judged.
-  if (told < granted_ || (told.is_never() && last <= now_)) return std::nullopt;
+  if (told.until < granted_ || HasNothingAhead(told)) return std::nullopt;
   return granted_ > now_ ? std::optional(granted_) : std::nullopt;
+}
+
+bool World::HasNothingAhead(const Told& told) const {
+  return !told.first.is_never() && told.until.is_never() && told.last <= now_;
+}
+
+bool World::HasNoRoundLeft() const {
+  return started_ && RunsInRounds() && HasNothingAhead(ToldByAll());
 }
 
 void World::MoveTo(Instant next) {

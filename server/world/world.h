@@ -113,6 +113,9 @@ class World {
   /// to wait. In rounds it is the end of the round, or the start.
   std::optional<Instant> NextNow() const;
 
+  /// In rounds: nobody has a further step, and the last round has been judged.
+  bool HasNoRoundLeft() const;
+
   /// Simulated clock, before time begins: how many simulators it still waits for beside those that
   /// are there (`simulators_awaited`); 0 if none is there.
   std::size_t SimulatorsToCome() const;
@@ -282,6 +285,15 @@ class World {
   void Validate() const;
 
  private:
+  /// What the clocks in force of all who hold time tell, as far as they have one.
+  struct Told {
+    Instant until = Instant::Never();  ///< Everything up to here; Never(): no step follows.
+    Instant first = Instant::Never();  ///< The earliest clock; Never(): there is none.
+    Instant last = Instant::Always();  ///< The latest one.
+  };
+  Told ToldByAll() const;
+  bool HasNothingAhead(const Told& told) const;
+
   bool HasRoomFor(std::uint64_t id) const;
   Simulator* Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                  const std::string& name);

@@ -177,6 +177,24 @@ TEST(Rounds, TimeWaitsForEverybodyThatHasAStep) {
   EXPECT_GT(daemon.clearance(alpha.id()).granted_until_ns(), granted);
 }
 
+// Goal:   who has no further step may still remove its agents, and the world then waits for nobody.
+TEST(Rounds, AfterTheLastOneAgentsCanStillLeave) {
+  v1::Config config = Config();
+  config.mutable_clock()->set_simulators_awaited(1);
+  ScriptedDaemon daemon(config);
+  Mover alpha("alpha", 1, 1, 50 * kMillisecond);
+  daemon.Step(alpha.Begin());
+  v1::Input finished = alpha.NewestClock();
+  finished.mutable_simulator_clock()->set_next_ns(kNeverNs);
+  daemon.Step({finished});
+  ASSERT_EQ(daemon.status().simulators(0).agents(), 1u);
+  daemon.Step({Removal(1, "alpha", 0), finished});
+  EXPECT_EQ(daemon.status().simulators(0).agents(), 0u);
+  daemon.Step({Liveliness(1, "alpha", false)});
+  daemon.Pass(5);
+  EXPECT_EQ(Extension(daemon.status(), "waiting_for"), "");
+}
+
 // Goal:   a simulator that does not say when its next step is gets along, as before there were
 //         rounds: time follows its clock.
 TEST(Rounds, WithoutNextStepsTimeFollowsTheClocks) {
