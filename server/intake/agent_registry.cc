@@ -342,6 +342,20 @@ void AgentRegistry::Remove(Simulator* simulator, std::uint32_t slot, std::uint64
   told_[simulator->id()][slot].removed = true;
 }
 
+bool AgentRegistry::AllLeave(const Simulator& simulator) const {
+  const auto told = told_.find(simulator.id());
+  const auto leaves = [&](std::uint32_t slot) {
+    if (told == told_.end()) return false;
+    const auto one = told->second.find(slot);
+    return one != told->second.end() && one->second.removed && !one->second.description;
+  };
+  bool all_leave = true;
+  simulator.agents().ForEachSlot([&](std::uint32_t slot) {
+    if (simulator.agents().Find(slot) != nullptr && !leaves(slot)) all_leave = false;
+  });
+  return all_leave;
+}
+
 std::uint64_t AgentRegistry::DescriptionSequence(const Simulator& simulator,
                                                  std::uint32_t slot) const {
   if (const auto* told = ToldOf(simulator, slot)) return told->sequence();

@@ -58,6 +58,9 @@ class AgentRegistry {
   /// nothing happens. 0: it does not say.
   void Remove(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence);
 
+  /// Whether each agent of a simulator will be gone once what was told takes effect. O(agents).
+  bool AllLeave(const Simulator& simulator) const;
+
   /// What was told of the agents of a simulator takes effect.
   void Enact(Simulator* simulator);
 

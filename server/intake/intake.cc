@@ -347,6 +347,11 @@ void Intake::Enact() {
   for (auto& [id, simulator] : world_.simulators()) Enact(&simulator);
 }
 
+bool Intake::AllLeave() const {
+  return std::ranges::all_of(world_.simulators(),
+                             [&](const auto& one) { return agents_.AllLeave(one.second); });
+}
+
 void Intake::EndRun(Simulator* simulator, EndCause cause) {
   Enact(simulator);
   agents_.RemoveAll(simulator);

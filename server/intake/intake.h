@@ -66,6 +66,9 @@ class Intake {
   /// that left had written.
   void EndBatch();
 
+  /// Whether no agent of anybody will be left once what was told takes effect. O(agents).
+  bool AllLeave() const;
+
   /// What was told of agents takes effect: admissions, states, revisions, removals.
   void Enact();
 

@@ -25,9 +25,10 @@ void DetectionStep::MoveOn(bool inputs) {
   }
 }
 
-// Who has finished may still remove its agents.
+// Who has finished may still remove its agents. All of them leave together, so that the events do
+// not depend on who does so first.
 void DetectionStep::TakeLast() {
-  if (parts_.intake.AwaitsShapes() || !parts_.world.HasNoRoundLeft()) return;
+  if (!parts_.world.HasNoRoundLeft() || !parts_.intake.AllLeave()) return;
   parts_.intake.Enact();
   Detect(true);
 }

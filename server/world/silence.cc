@@ -99,7 +99,7 @@ std::vector<Awaited> Silence::Waited(const Simulators& simulators, std::int64_t 
   std::vector<Awaited> waited;
   if (!simulated_) return waited;
   for (const auto& [id, simulator] : simulators) {
-    if (!simulator.holds_time()) continue;
+    if (!simulator.holds_time() || simulator.time().has_finished()) continue;
     if (!simulator.alive()) {
       waited.push_back({simulator.name(), WaitReason::kEnded});
     } else if (progress_.IsNamed(id, now_ns)) {

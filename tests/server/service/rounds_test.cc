@@ -177,7 +177,7 @@ TEST(Rounds, TimeWaitsForEverybodyThatHasAStep) {
   EXPECT_GT(daemon.clearance(alpha.id()).granted_until_ns(), granted);
 }
 
-// Goal:   who has no further step may still remove its agents, and the world then waits for nobody.
+// Goal:   who has no further step may still remove its agents.
 TEST(Rounds, AfterTheLastOneAgentsCanStillLeave) {
   v1::Config config = Config();
   config.mutable_clock()->set_simulators_awaited(1);
@@ -190,9 +190,22 @@ TEST(Rounds, AfterTheLastOneAgentsCanStillLeave) {
   ASSERT_EQ(daemon.status().simulators(0).agents(), 1u);
   daemon.Step({Removal(1, "alpha", 0), finished});
   EXPECT_EQ(daemon.status().simulators(0).agents(), 0u);
-  daemon.Step({Liveliness(1, "alpha", false)});
-  daemon.Pass(5);
-  EXPECT_EQ(Extension(daemon.status(), "waiting_for"), "");
+}
+
+TEST(Rounds, NobodyWaitsForOneThatHasFinishedAndFallsSilent) {
+  for (const bool has_finished : {false, true}) {
+    v1::Config config = Config();
+    config.mutable_clock()->set_simulators_awaited(1);
+    ScriptedDaemon daemon(config);
+    Mover alpha("alpha", 1, 1, 50 * kMillisecond);
+    daemon.Step(alpha.Begin());
+    v1::Input clock = alpha.NewestClock();
+    if (has_finished) clock.mutable_simulator_clock()->set_next_ns(kNeverNs);
+    daemon.Step({clock});
+    daemon.Step({Liveliness(1, "alpha", false)});
+    daemon.Pass(5);
+    EXPECT_EQ(Extension(daemon.status(), "waiting_for"), has_finished ? "" : "alpha");
+  }
 }
 
 // Goal:   a simulator that does not say when its next step is gets along, as before there were

@@ -93,8 +93,12 @@ TEST_F(NoticesTest, AStepFarAheadIsToldWhileTimeGoesOn) {
   for (int s = 0; s <= 64; ++s) {
     waits.granted_until_ns = s * 1'000'000'000LL;
     for (Notice& notice : Look(waits, seconds(s))) all.push_back(notice);
-    if (s == 2) EXPECT_TRUE(all.empty());
-    if (s == 3) EXPECT_EQ(all.size(), 1u);
+    if (s == 2) {
+      EXPECT_TRUE(all.empty());
+    }
+    if (s == 3) {
+      EXPECT_EQ(all.size(), 1u);
+    }
   }
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].kind, NoticeKind::kWaiting);
