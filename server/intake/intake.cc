@@ -348,8 +348,11 @@ void Intake::Enact() {
 }
 
 bool Intake::AllLeave() const {
-  return std::ranges::all_of(world_.simulators(),
-                             [&](const auto& one) { return agents_.AllLeave(one.second); });
+  return std::ranges::all_of(world_.simulators(), [&](const auto& one) {
+    const Simulator& simulator = one.second;
+    const bool is_over = simulator.agents().size() == 0 || simulator.time().is_settled();
+    return is_over && agents_.AllLeave(simulator);
+  });
 }
 
 void Intake::EndRun(Simulator* simulator, EndCause cause) {

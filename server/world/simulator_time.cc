@@ -64,6 +64,7 @@ bool SimulatorTime::Take() {
          pending_.front().descriptions_sequence <= descriptions_seen_) {
     clock_ = pending_.front().clock;
     next_ = pending_.front().next;
+    descriptions_told_ = pending_.front().descriptions_sequence;
     pending_.pop_front();
     taken = true;
   }

@@ -52,6 +52,9 @@ class SimulatorTime {
   std::uint64_t states_seen() const { return states_seen_; }  ///< The highest sequence.
   /// Up to this sequence every description and removal has arrived.
   std::uint64_t descriptions_arrived() const { return descriptions_arrived_; }
+  /// The clock in force was written after every description and removal that has arrived, so all
+  /// states that were written before them have arrived, too.
+  bool is_settled() const { return descriptions_told_ >= descriptions_seen_; }
 
   /// A clock that tells no time yet has arrived: that the simulator is there, and what it has
   /// described.
@@ -134,6 +137,7 @@ class SimulatorTime {
  private:
   std::uint64_t states_seen_ = 0;
   std::uint64_t descriptions_seen_ = 0;
+  std::uint64_t descriptions_told_ = 0;  ///< By the clock in force.
   std::uint64_t descriptions_arrived_ = 0;
   PendingClock offered_;  ///< The newest clock that has arrived.
   Instant newest_ = Instant::Always();

@@ -82,6 +82,15 @@ void AgentTable::Stage(const AgentId& id, const State& state) {
   ++traffic_.states_set;
 }
 
+std::optional<v1::AgentStates> AgentTable::TakeLast(const AgentId& id) {
+  Slot& slot = slots_.at(id.slot);
+  if (!slot.states.sent() || !slot.states.staged()) return std::nullopt;
+  if (slot.states.staged()->stamp_ns > taken_ns_) return std::nullopt;
+  Send(id.slot);
+  std::erase(staged_slots_, id.slot);
+  return Chunk(id.slot / policy_.chunk_size);
+}
+
 v1::AgentRemoval AgentTable::Remove(const AgentId& id) {
   Slot& slot = slots_.at(id.slot);
   slot.occupied = false;
@@ -211,6 +220,17 @@ void AgentTable::ForgetSent() {
   taken_ns_ = clock_ns_ = told_ns_ = std::numeric_limits<std::int64_t>::min();
 }
 
+void AgentTable::Send(std::uint32_t index) {
+  Slot& slot = slots_[index];
+  const std::uint64_t before = states_sequence_;
+  slot.sent_at = now_;
+  stated_ += !slot.states.sent().has_value();
+  if (slot.states.sent() && slot.states.StagedJumps()) jumped_slots_.push_back(index);
+  slot.states.MarkSent(&states_sequence_, slot.description.revision());
+  standing_sequence_ = states_sequence_;
+  traffic_.states_sent += states_sequence_ - before;
+}
+
 std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
   std::vector<std::uint32_t> chunks;
   if (policy_.wall_clock && clock_ns > taken_ns_) EndRound();
@@ -220,22 +240,15 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
   // arrives last, and a clock that names it counts when all have come.
   std::sort(staged_slots_.begin(), staged_slots_.end());
   std::size_t waiting = 0;
-  const std::uint64_t sent_before = states_sequence_;
   for (const std::uint32_t index : staged_slots_) {
-    Slot& slot = slots_[index];
     if (IsDue(index, clock_ns)) {
-      slot.sent_at = now_;
-      stated_ += !slot.states.sent().has_value();
-      if (slot.states.sent() && slot.states.StagedJumps()) jumped_slots_.push_back(index);
-      slot.states.MarkSent(&states_sequence_, slot.description.revision());
-      standing_sequence_ = states_sequence_;
+      Send(index);
       chunks.push_back(index / policy_.chunk_size);
     } else {
       staged_slots_[waiting++] = index;
     }
   }
   staged_slots_.resize(waiting);
-  traffic_.states_sent += states_sequence_ - sent_before;
   std::sort(chunks.begin(), chunks.end());
   chunks.erase(std::unique(chunks.begin(), chunks.end()), chunks.end());
   traffic_.samples_sent += chunks.size();

@@ -40,6 +40,10 @@ class AgentTable {
   /// Stages a state until the clock reaches its stamp; see OutgoingStates.
   void Stage(const AgentId& id, const State& state);
 
+  /// The sample to be written before Remove(), if there is one: what the service did not need of the
+  /// agent while its motion went on, the state that it has reached, it needs to judge the rest.
+  std::optional<v1::AgentStates> TakeLast(const AgentId& id);
+
   /// The removal is a description, too: it takes the next number of these.
   v1::AgentRemoval Remove(const AgentId& id);
 
@@ -106,6 +110,8 @@ class AgentTable {
     Watches::Time sent_at{};                  ///< When a state was sent last.
   };
 
+  /// The staged state of the slot counts as sent.
+  void Send(std::uint32_t index);
   std::int64_t HeldBack(std::int64_t clock_ns) const;
   std::uint32_t FreeSlot();
   /// Gives back the slots of removed agents; returns the chunks that they were in.

@@ -125,6 +125,10 @@ void World::Implementation::SetDescription(const AgentId& id, const AgentDescrip
 void World::Implementation::RemoveAgent(const AgentId& id) {
   const std::string former = agents_.description(id).shape_hash();
   v1::Input message;
+  if (auto last = agents_.TakeLast(id)) {
+    *message.mutable_agent_states() = *std::move(last);
+    transport_->Write(message);
+  }
   *message.mutable_agent_removal() = agents_.Remove(id);
   transport_->Write(message);
   shapes_.Remove(former, Writer());

@@ -17,6 +17,8 @@ int RunSimulator(const SimulatorOptions& options,
   MotionLog log(options.motion_log);
   Pace pace(options);
   move(&pace, &log);
+  // Who heard of events is gone; some may still come.
+  pace.world().OnEvent(nullptr);
   log.Close();
   pace.ReportTraffic();
   pace.CheckRefusals();

@@ -257,6 +257,30 @@ TEST_F(OnDemandTest, AStateThatLeavesThePromiseIsSent) {
   EXPECT_EQ(TakeSent(), (Stamps{20, 30}));
 }
 
+// The service has not wanted the states at 10 and 20 ns; what there was until it left it has to know.
+TEST_F(OnDemandTest, TheLastStateThatWasReachedIsSentBeforeItsAgentLeaves) {
+  Start();
+  ServiceSays({.now_ns = 0, .wanted_ns = kNever, .acknowledged = 1});
+  EXPECT_EQ(Fly(10, 20), Stamps{});
+  network_->written.clear();
+  ball_.reset();
+  ASSERT_EQ(network_->written.size(), 2u);
+  ASSERT_TRUE(network_->written[0].has_agent_states());
+  EXPECT_EQ(network_->written[0].agent_states().states(0).stamp_ns(), 20);
+  EXPECT_TRUE(network_->written[1].has_agent_removal());
+}
+
+// One that it has not reached yet it never reaches.
+TEST_F(OnDemandTest, AStateAheadOfTheClockIsNotSentWhenItsAgentLeaves) {
+  Start();
+  ServiceSays({.now_ns = 0, .wanted_ns = kNever, .acknowledged = 1});
+  ball_->SetState(At(30));
+  network_->written.clear();
+  ball_.reset();
+  ASSERT_EQ(network_->written.size(), 1u);
+  EXPECT_TRUE(network_->written[0].has_agent_removal());
+}
+
 // A new description counts from the next state on, so that must be sent.
 TEST_F(OnDemandTest, ADescriptionIsFollowedByAState) {
   Start();
