@@ -40,8 +40,8 @@ class AgentTable {
   /// Stages a state until the clock reaches its stamp; see OutgoingStates.
   void Stage(const AgentId& id, const State& state);
 
-  /// The sample to be written before Remove(), if there is one: what the service did not need of the
-  /// agent while its motion went on, the state that it has reached, it needs to judge the rest.
+  /// The sample to be written before Remove(), if there is one: the state that the agent has
+  /// reached, which the service did not need while its motion went on.
   std::optional<v1::AgentStates> TakeLast(const AgentId& id);
 
   /// The removal is a description, too: it takes the next number of these.

@@ -197,7 +197,14 @@ void Play(const std::vector<PlayedAgent>& agents, const PlayerOptions& options, 
     }
     parts.emplace_back(agent, options);
   }
-  due[pace->end_ns()];
+  // The run may end in the middle of a trajectory.
+  std::vector<std::size_t>& last = due[pace->end_ns()];
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const Trajectory& trajectory = agents[i].trajectory;
+    const bool is_within =
+        trajectory.begin_ns() < pace->end_ns() && pace->end_ns() < trajectory.end_ns();
+    if (is_within && std::ranges::count(last, i) == 0) last.push_back(i);
+  }
   for (const auto& [stamp, indices] : due) {
     for (const std::size_t i : indices) parts[i].Stage(stamp, &pace->world(), log);
     if (!pace->AdvanceTo(stamp)) break;

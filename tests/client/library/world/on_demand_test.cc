@@ -257,7 +257,8 @@ TEST_F(OnDemandTest, AStateThatLeavesThePromiseIsSent) {
   EXPECT_EQ(TakeSent(), (Stamps{20, 30}));
 }
 
-// The service has not wanted the states at 10 and 20 ns; what there was until it left it has to know.
+// The service has not wanted the states at 10 and 20 ns; what there was until the agent left it has
+// to know.
 TEST_F(OnDemandTest, TheLastStateThatWasReachedIsSentBeforeItsAgentLeaves) {
   Start();
   ServiceSays({.now_ns = 0, .wanted_ns = kNever, .acknowledged = 1});
