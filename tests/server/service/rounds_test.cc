@@ -20,10 +20,10 @@ namespace {
 constexpr std::int64_t kMillisecond = 1'000'000;
 constexpr std::int64_t kEnd = 1000 * kMillisecond;
 
-v1::Config Config() {
+v1::Config ConfigFor(std::uint32_t simulators) {
   v1::Config config = Simulated();
   config.set_temporal_resolution_s(0.02);
-  config.mutable_clock()->set_simulators_awaited(2);
+  config.mutable_clock()->set_simulators_awaited(simulators);
   config.mutable_clock()->set_grant_ahead_max_s(0.3);
   return config;
 }
@@ -87,7 +87,7 @@ class Mover {
 /// The daemon's log of one run over a network with this seed; 0: nothing is reordered or lost.
 std::string EventsOf(std::uint64_t seed) {
   Random random(seed);
-  ScriptedDaemon daemon(Config());
+  ScriptedDaemon daemon(ConfigFor(2));
   std::vector<Mover> movers = {{"alpha", 1, 1, 50 * kMillisecond},
                                {"beta", 2, -1, 35 * kMillisecond}};
   std::vector<v1::Input> waiting;
@@ -152,7 +152,7 @@ TEST(Rounds, TheEventsDoNotDependOnTheNetwork) {
 // Goal:   time waits for whoever has not said that it has nothing more to tell; who has no further
 //         step is not waited for.
 TEST(Rounds, TimeWaitsForEverybodyThatHasAStep) {
-  ScriptedDaemon daemon(Config());
+  ScriptedDaemon daemon(ConfigFor(2));
   Mover alpha("alpha", 1, 1, 50 * kMillisecond);
   Mover beta("beta", 2, -1, 50 * kMillisecond);
   for (Mover* mover : {&alpha, &beta}) {
@@ -179,9 +179,7 @@ TEST(Rounds, TimeWaitsForEverybodyThatHasAStep) {
 
 // Goal:   who has no further step may still remove its agents.
 TEST(Rounds, AfterTheLastOneAgentsCanStillLeave) {
-  v1::Config config = Config();
-  config.mutable_clock()->set_simulators_awaited(1);
-  ScriptedDaemon daemon(config);
+  ScriptedDaemon daemon(ConfigFor(1));
   Mover alpha("alpha", 1, 1, 50 * kMillisecond);
   daemon.Step(alpha.Begin());
   v1::Input finished = alpha.NewestClock();
@@ -194,9 +192,7 @@ TEST(Rounds, AfterTheLastOneAgentsCanStillLeave) {
 
 TEST(Rounds, NobodyWaitsForOneThatHasFinishedAndFallsSilent) {
   for (const bool has_finished : {false, true}) {
-    v1::Config config = Config();
-    config.mutable_clock()->set_simulators_awaited(1);
-    ScriptedDaemon daemon(config);
+    ScriptedDaemon daemon(ConfigFor(1));
     Mover alpha("alpha", 1, 1, 50 * kMillisecond);
     daemon.Step(alpha.Begin());
     v1::Input clock = alpha.NewestClock();
@@ -211,9 +207,7 @@ TEST(Rounds, NobodyWaitsForOneThatHasFinishedAndFallsSilent) {
 // Goal:   a simulator that does not say when its next step is gets along, as before there were
 //         rounds: time follows its clock.
 TEST(Rounds, WithoutNextStepsTimeFollowsTheClocks) {
-  v1::Config config = Config();
-  config.mutable_clock()->set_simulators_awaited(1);
-  ScriptedDaemon daemon(config);
+  ScriptedDaemon daemon(ConfigFor(1));
   daemon.Step(AlphaJoins(1));
   daemon.Step({From(1, ClockAfter("alpha", 7 * kMillisecond, 2, 2))});
   EXPECT_EQ(daemon.status().now_ns(), 7 * kMillisecond);
