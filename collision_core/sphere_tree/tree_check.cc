@@ -5,8 +5,9 @@
 namespace collision::sphere_tree {
 namespace {
 
-/// No ball about a mesh that passed RefusalOf() is as far or as large [m].
-constexpr double kBallReachMax = 16 * geometry::kMeshReachMax;
+/// No ball about a mesh that passed RefusalOf(), or about the largest block of a half-space
+/// (shape/fixed_half_space.cc), is as far or as large [m].
+constexpr double kBallReachMax = 64 * geometry::kMeshReachMax;
 
 std::string At(std::size_t node, const std::string& what) {
   return "node " + std::to_string(node) + ": " + what;

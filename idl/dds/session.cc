@@ -138,13 +138,13 @@ class DdsSession::Implementation {
 
   /// Writes and disposes at once, so that the removal has a sequence of its own.
   void RemoveAgent(const v1::AgentRemoval& removal) {
-    collision_v1_AgentDescription sample{};
-    sample.simulator_id = removal.simulator_id();
-    sample.slot = removal.slot();
-    sample.incarnation = removal.incarnation();
-    sample.sequence = removal.sequence();
-    if (dds_writedispose(Writer(dds::TopicId::kAgentDescription), &sample) != DDS_RETCODE_OK)
-      ++writes_failed_;
+    v1::AgentDescription sample = removal.description();
+    sample.set_simulator_id(removal.simulator_id());
+    sample.set_slot(removal.slot());
+    sample.set_incarnation(removal.incarnation());
+    sample.set_sequence(removal.sequence());
+    const dds_entity_t writer = Writer(dds::TopicId::kAgentDescription);
+    if (dds_writedispose(writer, dds::ToWire(sample).get()) != DDS_RETCODE_OK) ++writes_failed_;
   }
 
   void RemoveShape(std::uint64_t simulator_id, std::uint32_t shape, std::uint32_t parts) {

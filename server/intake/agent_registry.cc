@@ -13,6 +13,9 @@
 namespace collision::server {
 namespace {
 
+/// While more agents than this wait for their descriptions, only the newest state of each is kept.
+constexpr std::size_t kUndescribedFew = 1024;
+
 bool SameHalfSpace(const detection::AgentDeclaration& a, const detection::AgentDeclaration& b) {
   if (!a.half_space || !b.half_space) return !a.half_space && !b.half_space;
   return a.half_space->IsSameAs(*b.half_space);
@@ -219,9 +222,12 @@ bool AgentRegistry::CountsBefore(const Simulator& simulator, std::uint32_t slot,
                                  const WaitingState& next) const {
   const Agent* agent = simulator.agents().Find(slot, next.generation);
   const std::span<const WaitingState> all = simulator.agents().AllWaiting(slot);
-  if (agent == nullptr || !agent->admitted() || all.empty()) return false;
+  if (all.empty() || (agent == nullptr && undescribed_.size() > kUndescribedFew)) return false;
   const WaitingState& newest = all.back();
+  const bool is_first = all.size() == 1 && (agent == nullptr || !agent->admitted());
+  if (is_first) return newest.state.stamp < next.state.stamp;
   if (newest.state.discontinuity) return true;
+  if (agent == nullptr) return false;
   if (Breaks(*agent, newest.sequence, newest.state, next.state)) return true;
   if (all.size() > 1) {
     const WaitingState& before = all[all.size() - 2];
@@ -285,7 +291,16 @@ void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
     if (std::exchange(agent->room_refused, true)) return;
     return rejections_.Add(NoRoom(simulator->IdOf(slot, agent->generation()), *refusal));
   }
-  Admit(simulator, slot, agents.TakeWaiting(slot).back());
+  const std::vector<WaitingState> states = agents.TakeWaiting(slot);
+  const detection::AgentId id = simulator->IdOf(slot, agent->generation());
+  const StampRules rules = world_.RulesForState(*simulator, false);
+  const auto first = std::find_if(states.begin(), states.end() - 1, [&](const WaitingState& one) {
+    return !CheckStamp(id, one.state.stamp, rules);
+  });
+  if (!Admit(simulator, slot, *first)) return;
+  for (auto next = first + 1; next != states.end(); ++next) {
+    Update(simulator, slot, next->sequence, next->state);
+  }
 }
 
 std::optional<std::string> AgentRegistry::RoomRefusal(const Simulator& simulator,
@@ -305,17 +320,20 @@ std::optional<std::string> AgentRegistry::RoomRefusal(const Simulator& simulator
       detectors_.agents());
 }
 
-void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting) {
+bool AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting) {
   const detection::AgentId id = simulator->IdOf(slot, waiting.generation);
   const Instant stamp = waiting.state.stamp;
   const StampRules rules = world_.RulesForState(*simulator, false);
-  if (const auto refusal = CheckStamp(id, stamp, rules)) return rejections_.Add(*refusal);
+  if (const auto refusal = CheckStamp(id, stamp, rules)) {
+    rejections_.Add(*refusal);
+    return false;
+  }
   Agent& agent = *simulator->agents().Find(slot);
   agent.EndFormer(waiting.sequence);
   const Instant effective = world_.EffectiveFrom(stamp);
   const detection::AgentDeclaration& declared = agent.declaration;
   if (!detectors_.Admit(id, agent.former ? FormerOf(agent) : declared, waiting.state, effective)) {
-    return;
+    return false;
   }
   if (agent.former) detectors_.Redeclare(id, declared, effective);
   world_.quotas().Take(simulator->id(), Resource::kAgents, 1);
@@ -327,6 +345,7 @@ void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const Waitin
   CountAccepted(simulator);
   simulator->agents().Admit(slot, stamp, waiting.sequence);
   if (simulator->time().clock()) detectors_.SetHeardUntil(OwnerOf(id), *simulator->time().clock());
+  return true;
 }
 
 void AgentRegistry::CountAccepted(Simulator* simulator) {
@@ -338,7 +357,10 @@ void AgentRegistry::Remove(Simulator* simulator, std::uint32_t slot, std::uint64
   const Agent* agent = simulator->agents().Find(slot);
   const bool late = sequence != 0 && sequence < DescriptionSequence(*simulator, slot);
   if (late) return;
-  if (agent == nullptr || !agent->admitted()) return RemoveNow(simulator, slot);
+  // In a round what it did may still be on its way, once its simulator has told a clock.
+  const bool in_round =
+      world_.started() && world_.RunsInRounds() && simulator->time().newest() != Instant::Always();
+  if (agent == nullptr || !(agent->admitted() || in_round)) return RemoveNow(simulator, slot);
   told_[simulator->id()][slot].removed = true;
 }
 

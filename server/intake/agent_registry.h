@@ -120,13 +120,16 @@ class AgentRegistry {
   static detection::AgentDeclaration FormerOf(const Agent& agent);
   detection::UpdateOutcome UpdateFormer(const detection::AgentId& id, const Agent& agent,
                                         const motion::MotionState& state);
-  /// Whether the newest state that waits counts beside `next`, which follows it: it is a jump, or
+  /// Whether the newest state that waits counts beside `next`, which follows it: it is the first of
+  /// an agent that is not admitted (unless `next` corrects it, being of the same time), a jump, or
   /// either end of a motion that the agent's declaration excludes. All others say nothing that the
   /// states before and after do not, and whether they arrive depends on the network.
   bool CountsBefore(const Simulator& simulator, std::uint32_t slot, const WaitingState& next) const;
   void SetWaiting(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
+  /// From its first state on that is late enough; what it has done since is known as well.
   void AdmitIfComplete(Simulator* simulator, std::uint32_t slot);
-  void Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
+  /// Returns false if it is not admitted, which its owner is told.
+  bool Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
   void RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent* agent);
   /// The agent leaves the detector, if it is in it.
   void Withdraw(const Simulator& simulator, std::uint32_t slot, const Agent& agent);

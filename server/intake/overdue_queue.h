@@ -21,6 +21,8 @@ class OverdueQueue {
  public:
   explicit OverdueQueue(std::int64_t due_after_ns) : due_after_ns_(due_after_ns) {}
 
+  std::size_t size() const { return items_.size(); }
+
   /// If it is full, the caller reports the item at once.
   bool full() const { return items_.size() >= kOverdueMax; }
 

@@ -37,8 +37,9 @@ class SilenceReport {
   std::vector<std::string> removed_;  ///< Newest first; at most kRemovedShownMax.
   NamesLog silent_;
   NamesLog stands_{
-      "world time waits for simulator {}: it was granted time and does not move (see "
-      "clock.waiting_after_s); let it go on, or evict it with collisionctl evict"};
+      "world time waits for simulator {}: it was granted time and has not made its next step: it "
+      "is slow, keeps a pace, or stands still (see clock.waiting_after_s); let it go on, or evict "
+      "it with collisionctl evict"};
   NamesLog without_clock_{
       "world time waits for simulator {}: it has started again, and no clock of it has been "
       "accepted "

@@ -82,12 +82,8 @@ void AgentTable::AcknowledgeRevision(std::uint32_t slot, std::uint32_t generatio
 }
 
 void AgentTable::SetWaiting(std::uint32_t slot, const WaitingState& waiting, Former former) {
-  const Agent* agent = Find(slot, waiting.generation);
   std::vector<WaitingState>& all = slots_[slot].waiting;
-  if (agent == nullptr || !agent->admitted_ ||
-      (!all.empty() && all.back().generation != waiting.generation)) {
-    all.clear();
-  }
+  if (!all.empty() && all.back().generation != waiting.generation) all.clear();
   if (!all.empty() && former == Former::kReplaced) all.pop_back();
   if (all.size() > kWaitingBeforeMax) all.erase(all.begin());
   all.push_back(waiting);

@@ -77,7 +77,8 @@ class Agent {
   std::uint64_t acknowledged_sequence_ = 0;
 };
 
-/// A state that has not taken effect: the newest of its slot, or one before that counts as well.
+/// A state that has not taken effect: the newest of its slot, or one before that counts as well: an
+/// agent's first, a jump, or an end of a motion that was not declared.
 struct WaitingState {
   std::uint32_t generation = 0;
   std::uint64_t sequence = 0;
@@ -138,8 +139,7 @@ class AgentTable {
   /// What becomes of the newest state that waits when a newer one comes.
   enum class Former { kReplaced, kWaitsOn };
 
-  /// `waiting` is the newest state in `slot`. The one before waits on only of the same generation
-  /// of an agent that is admitted.
+  /// `waiting` is the newest state in `slot`. The one before waits on only of the same generation.
   void SetWaiting(std::uint32_t slot, const WaitingState& waiting, Former former);
 
   /// Hands out what waits in `slot`, the newest last, which then waits no more. Requires one.
@@ -193,7 +193,7 @@ class AgentTable {
  private:
   struct Slot {
     std::optional<Agent> agent;
-    std::vector<WaitingState> waiting;  ///< Jumps, and the newest state.
+    std::vector<WaitingState> waiting;  ///< Those that count, and the newest.
     std::uint64_t ended = 0;            ///< Generations below have been removed or replaced.
     /// Generation and sequence of the newest state looked at, accepted or not.
     std::optional<std::pair<std::uint32_t, std::uint64_t>> handled;

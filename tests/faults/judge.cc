@@ -109,14 +109,14 @@ class PairJudge {
     const auto unserved = [begin](const auto& gap) {
       return gap.first <= begin && begin <= gap.second;
     };
-    bool is_served = std::none_of(options_.unserved.begin(), options_.unserved.end(), unserved);
+    const bool may_be = std::none_of(options_.unserved.begin(), options_.unserved.end(), unserved);
     // Time is granted ahead, and promises reach so far: a change counts from there on.
     const bool counts =
         KnownFrom(*a_.flown, begin) <= begin && KnownFrom(*b_.flown, begin) <= begin;
-    is_served = is_served && counts;
+    const bool is_served = may_be && counts;
     if (!is_served) ++result_.unserved;
     if (contact.begins_in_motion) {
-      if (is_served) JudgeAnnouncement(begin);
+      if (may_be) JudgeAnnouncement(begin, is_served);
       for (const Body* body : {&a_, &b_}) {
         if (counts) JudgeReliance(*body, begin, is_served);
       }
@@ -130,8 +130,9 @@ class PairJudge {
   }
 
   /// The monitor or a program in it was told, and at a time of the world that is not after the
-  /// begin. A forecast that a newer one replaces on its way never comes to the monitor.
-  void JudgeAnnouncement(std::int64_t begin) {
+  /// begin if it is `served`. A forecast that a newer one replaces on its way never comes to the
+  /// monitor.
+  void JudgeAnnouncement(std::int64_t begin, bool served) {
     std::int64_t first = client::kNever;
     for (const auto& [key, story] : stories_) {
       for (const MonitoredEvent* heard : story) {
@@ -144,6 +145,12 @@ class PairJudge {
         if (!IsOfPair(heard.event) || !Covers(heard.event, begin)) continue;
         first = std::min(first, Rel(heard.event.now_ns));
       }
+    }
+    if (!served) {
+      if (first == client::kNever) {
+        Fail(&result_.untold, "contact at " + std::to_string(begin) + " ns, never told");
+      }
+      return;
     }
     if (first > begin + options_.tolerance_ns) {
       return Fail(&result_.late, "contact at " + std::to_string(begin) + " ns, announced at " +
@@ -200,8 +207,12 @@ class PairJudge {
     std::int64_t from = *flown.added_ns;
     VisitChanges(flown, begin, [&](std::int64_t at_ns, bool waited) {
       const auto told = flown.effective_ns.lower_bound(at_ns - options_.tolerance_ns);
-      const std::int64_t effective = told == flown.effective_ns.end() ? at_ns : *told;
+      const bool has_left = flown.removed_ns != client::kNever;
+      const std::int64_t never_told = has_left ? client::kNever : at_ns;
+      const std::int64_t effective = told == flown.effective_ns.end() ? never_told : *told;
       const std::int64_t hearing = waited ? 0 : options_.hearing_ns;
+      if (effective == client::kNever) from = client::kNever;
+      if (from == client::kNever) return;
       from = std::max(from, std::max(at_ns, effective) + options_.tolerance_ns + hearing);
     });
     return from;

@@ -29,8 +29,11 @@ struct JudgeOptions {
 struct Judgement {
   std::uint64_t contacts = 0;  ///< True ones.
   /// Of them, those that the case keeps from being announced, or that begin after a change of an
-  /// agent and before that counts (Clearance::effective_from_ns).
+  /// agent and before that counts (Clearance::effective_from_ns), if it ever does: an agent may
+  /// come and go within what others were granted.
   std::uint64_t unserved = 0;
+  /// Of the latter, those that nobody was told of, not even afterwards.
+  std::uint64_t untold = 0;
   std::uint64_t confirmed = 0;  ///< Of them, those that the monitor was told of as confirmed.
   std::uint64_t late = 0;       ///< Not announced before they began.
   std::uint64_t unheard = 0;    ///< Not heard in time by a program whose agent was in them.

@@ -50,8 +50,8 @@ std::size_t AgentsAtATime(const Scene& scene) {
     for (const Flown& flown : one->flown()) {
       if (!flown.added_ns) continue;
       ++changes[*flown.added_ns];
-      // Gone once all others have got there: their steps are shorter than a second.
-      if (flown.removed_ns != client::kNever) --changes[flown.removed_ns + kSecond];
+      // Gone once all others have got there: they are at most two seconds behind.
+      if (flown.removed_ns != client::kNever) --changes[flown.removed_ns + 2 * kSecond];
     }
   }
   std::int64_t now = 0, most = 0;

@@ -26,6 +26,16 @@ v1::Input HeardOf(const v1::Output& output) {
   return input;
 }
 
+/// As it arrives: a description that was written with the removal comes before it.
+void AddInput(const v1::Input& written, std::vector<v1::Input>* inputs) {
+  if (!written.agent_removal().has_description()) return inputs->push_back(written);
+  v1::Input description = written, removal = written;
+  *description.mutable_agent_description() = written.agent_removal().description();
+  removal.mutable_agent_removal()->clear_description();
+  inputs->push_back(description);
+  inputs->push_back(removal);
+}
+
 }  // namespace
 
 void Network::At(std::int64_t time_ns, std::function<void()> action) {
@@ -236,7 +246,7 @@ void Network::Take(Id id, std::size_t limit, std::vector<v1::Input>* inputs,
     for (; !samples.empty() && taken < limit; samples.pop_front(), ++taken) {
       const Sample& sample = samples.front();
       if (sample.input) {
-        if (inputs != nullptr) inputs->push_back(*sample.input);
+        if (inputs != nullptr) AddInput(*sample.input, inputs);
       } else if (program.role == Role::kService) {
         inputs->push_back(HeardOf(*sample.output));
       } else if (outputs != nullptr) {

@@ -92,6 +92,25 @@ TEST(DdsBusLiveliness, ARemovalBeforeTheFirstReadComesAfterTheDescription) {
   EXPECT_EQ(inputs.back().agent_removal().slot(), 3u);
 }
 
+// Goal:   a description that its removal has overwritten is not lost.
+TEST(DdsBusLiveliness, ADescriptionWrittenWithTheRemovalComesBeforeIt) {
+  DdsBus bus(TestWorld(), TestDomain());
+  DdsSession simulator(SimulatorOptions("a"));
+  v1::AgentRemoval removal = RemovalOf("a", 3);
+  *removal.mutable_description() = Description("a", 3);
+  removal.mutable_description()->set_radius_m(7);
+  simulator.RemoveAgent(removal);
+  simulator.Flush();
+  std::vector<v1::Input> inputs;
+  ASSERT_TRUE(
+      ReceiveUntil(bus, &inputs, [&] { return Count(inputs, v1::Input::kAgentRemoval) > 0; }));
+  ASSERT_EQ(inputs.size(), 2u);
+  EXPECT_EQ(inputs[0].agent_description().radius_m(), 7);
+  EXPECT_EQ(inputs[0].agent_description().slot(), 3u);
+  EXPECT_EQ(inputs[0].agent_description().sequence(), kRemovalSequence);
+  EXPECT_EQ(inputs[1].agent_removal().sequence(), kRemovalSequence);
+}
+
 // Goal:   a service that comes later hears of removals, too: a clock may wait for one of them.
 TEST(DdsBusLiveliness, ARemovalReachesALateReader) {
   DdsSession simulator(SimulatorOptions("a"));

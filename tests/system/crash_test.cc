@@ -51,7 +51,8 @@ TEST(Crash, KilledSimulatorIsReleased) {
   const auto left = world.StartSimulator(kLeft, kHardlyMoves);
   const auto right = world.StartSimulator(kRight);
   // Left lives and hardly moves; it too would be released.
-  ASSERT_TRUE(daemon->WaitForOutput("was granted time and does not move")) << daemon->err();
+  ASSERT_TRUE(daemon->WaitForOutput("was granted time and has not made its next step"))
+      << daemon->err();
   left->Signal(SIGKILL);
   EXPECT_EQ(right->WaitForExit(), 0) << right->err() << daemon->err();
 }

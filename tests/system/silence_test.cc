@@ -19,7 +19,8 @@ TEST(SilenceOfPrograms, AGhostIsShownAndCanBeEvicted) {
   const auto right = world.StartSimulator(kRight);
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
   // Left lives and does not move.
-  ASSERT_TRUE(daemon->WaitForOutput("was granted time and does not move")) << daemon->err();
+  ASSERT_TRUE(daemon->WaitForOutput("was granted time and has not made its next step"))
+      << daemon->err();
   EXPECT_TRUE(world.MonitorComesToSay({"status", "--json"}, "\"left-sim\"")) << daemon->err();
   left->Signal(SIGKILL);
   ASSERT_EQ(left->WaitForExit(), 128 + SIGKILL);

@@ -83,9 +83,11 @@ void AgentTable::Stage(const AgentId& id, const State& state) {
 }
 
 std::optional<v1::AgentStates> AgentTable::TakeLast(const AgentId& id) {
-  Slot& slot = slots_.at(id.slot);
-  if (!slot.states.sent() || !slot.states.staged()) return std::nullopt;
-  if (slot.states.staged()->stamp_ns > taken_ns_) return std::nullopt;
+  const std::optional<State>& staged = slots_.at(id.slot).states.staged();
+  const bool is_known = slots_.at(id.slot).states.sent().has_value();
+  if (!policy_.wall_clock || !is_known || !staged || staged->stamp_ns > taken_ns_) {
+    return std::nullopt;
+  }
   Send(id.slot);
   std::erase(staged_slots_, id.slot);
   return Chunk(id.slot / policy_.chunk_size);
@@ -99,12 +101,19 @@ v1::AgentRemoval AgentTable::Remove(const AgentId& id) {
   if (slot.states.sent()) {
     --stated_;
     removed_slots_.push_back(id.slot);
+    if (!policy_.wall_clock) {
+      slot.states.StageLast(taken_ns_);
+      staged_slots_.push_back(id.slot);
+    }
   } else {
     Free(id.slot);
   }
   --agent_count_;
   census_changed_ = true;
-  return RemovalOf(id.slot);
+  v1::AgentRemoval removal = RemovalOf(id.slot);
+  const bool is_known = slot.acknowledged_revision == slot.description.revision();
+  if (!is_known) *removal.mutable_description() = slot.description;
+  return removal;
 }
 
 v1::AgentRemoval AgentTable::RemovalOf(std::uint32_t slot) const {
@@ -126,8 +135,11 @@ std::vector<std::uint32_t> AgentTable::FreeRemoved() {
 }
 
 void AgentTable::EndRound() {
-  leaving_slots_.insert(leaving_slots_.end(), removed_slots_.begin(), removed_slots_.end());
-  removed_slots_.clear();
+  const auto unsent =
+      std::partition(removed_slots_.begin(), removed_slots_.end(),
+                     [&](std::uint32_t slot) { return !slots_[slot].states.staged(); });
+  leaving_slots_.insert(leaving_slots_.end(), removed_slots_.begin(), unsent);
+  removed_slots_.erase(removed_slots_.begin(), unsent);
 }
 
 void AgentTable::Free(std::uint32_t slot) {
@@ -214,6 +226,10 @@ std::vector<AgentId> AgentTable::ForgetPromises() {
 }
 
 void AgentTable::ForgetSent() {
+  for (const std::uint32_t slot : removed_slots_) {
+    slots_[slot].states = OutgoingStates();
+    std::erase(staged_slots_, slot);
+  }
   for (Slot& slot : slots_) slot.states.ForgetSent();
   stated_ = 0;
   standing_sequence_ = 0;

@@ -40,11 +40,12 @@ class AgentTable {
   /// Stages a state until the clock reaches its stamp; see OutgoingStates.
   void Stage(const AgentId& id, const State& state);
 
-  /// The sample to be written before Remove(), if there is one: the state that the agent has
-  /// reached, which the service did not need while its motion went on.
+  /// In real time: the sample to be written before Remove(), if there is one: the state that the
+  /// agent has reached, which the service did not need while its motion went on.
   std::optional<v1::AgentStates> TakeLast(const AgentId& id);
 
-  /// The removal is a description, too: it takes the next number of these.
+  /// The removal is a description, too: it takes the next number of these. In lock-step the state
+  /// that the agent has reached, and that it left then, is due.
   v1::AgentRemoval Remove(const AgentId& id);
 
   /// Somebody looks at agents: their newest states are due, too, a period after the last that was

@@ -54,6 +54,21 @@ void OutgoingStates::Stage(const State& state, const MotionBounds& bounds,
   stands_in_ = policy.on_demand && sent_ && StandsIn(bounds, *sent_, *staged_);
 }
 
+void OutgoingStates::StageLast(std::int64_t clock_ns) {
+  std::vector<State> reached = std::exchange(staged_before_, {});
+  if (staged_) reached.push_back(*staged_);
+  std::erase_if(reached, [&](const State& state) { return state.stamp_ns > clock_ns; });
+  if (reached.empty()) {
+    reached.push_back(*sent_);
+    reached.back().discontinuity = false;  // It has been told.
+  }
+  staged_ = reached.back();
+  staged_->expiry_ns = std::min(staged_->expiry_ns.value_or(clock_ns), clock_ns);
+  reached.pop_back();
+  staged_before_ = std::move(reached);
+  stands_in_ = false;
+}
+
 bool OutgoingStates::StagedJumps() const {
   return staged_->discontinuity || std::any_of(staged_before_.begin(), staged_before_.end(),
                                                [](const State& one) { return one.discontinuity; });
@@ -83,10 +98,15 @@ bool OutgoingStates::MustBeSent(std::uint32_t revision) const {
 
 void OutgoingStates::MarkSent(std::uint64_t* sequence, std::uint32_t revision) {
   const bool must_be_sent = MustBeSent(revision);
-  if (sent_ && sent_counts_ && sent_sequence_ > acknowledged_) Carry(*sent_, sent_sequence_);
+  // An agent that nobody knows yet may be put elsewhere.
+  const bool corrects = sent_ && acknowledged_ == 0 && carried_.empty() && staged_before_.empty() &&
+                        staged_->stamp_ns == sent_->stamp_ns;
+  const bool is_first = !sent_ || corrects;
+  const bool carries = sent_ && !corrects && sent_counts_ && sent_sequence_ > acknowledged_;
+  if (carries) Carry(*sent_, sent_sequence_);
   for (const State& state : std::exchange(staged_before_, {})) Carry(state, ++*sequence);
   sent_ = std::exchange(staged_, std::nullopt);
-  sent_counts_ = std::exchange(staged_counts_, false) || sent_->discontinuity;
+  sent_counts_ = std::exchange(staged_counts_, false) || is_first || sent_->discontinuity;
   sent_sequence_ = ++*sequence;
   sent_revision_ = revision;
   if (must_be_sent) must_sequence_ = sent_sequence_;

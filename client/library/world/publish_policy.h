@@ -23,9 +23,9 @@ struct PublishPolicy {
 };
 
 /// The states of one agent on their way to the service: one staged, one sent, and those before
-/// either that count as well: a jump, and either end of a motion that breaks the agent's bounds.
-/// The network keeps the newest sample only, so each sample carries those again, and the same
-/// states reach the service whatever it loses.
+/// either that count as well: the first, a jump, and either end of a motion that breaks the agent's
+/// bounds. The network keeps the newest sample only, so each sample carries those again, and the
+/// same states reach the service whatever it loses.
 ///
 /// A staged state is *due* when the clock has reached its stamp and one of these holds:
 ///  - it *must* be sent: no earlier state stands in for it (contract.h), one before it counts, or
@@ -42,6 +42,11 @@ class OutgoingStates {
   /// std::invalid_argument if the stamp lies before that of the state sent last; in real time
   /// such a state is dropped.
   void Stage(const State& state, const MotionBounds& bounds, const PublishPolicy& policy);
+
+  /// The agent leaves at `clock_ns`: the newest state that it has reached is sent next, again if it
+  /// was sent, and expires then. In lock-step others may get much farther before the service takes
+  /// the removal. Requires a sent state.
+  void StageLast(std::int64_t clock_ns);
 
   const std::optional<State>& staged() const { return staged_; }
   const std::optional<State>& sent() const { return sent_; }
@@ -88,7 +93,7 @@ class OutgoingStates {
   std::optional<State> sent_;
   bool stands_in_ = false;      ///< `sent_` stands in for `staged_`.
   bool staged_counts_ = false;  ///< It is an end of a motion that breaks the bounds.
-  bool sent_counts_ = false;    ///< Likewise, or a jump.
+  bool sent_counts_ = false;    ///< Likewise, or a jump, or the first.
   std::uint64_t sent_sequence_ = 0;
   std::uint32_t sent_revision_ = 0;   ///< Of the description, when `sent_` was sent.
   std::vector<State> staged_before_;  ///< They count, and are sent with the staged one.

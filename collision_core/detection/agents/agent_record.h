@@ -50,8 +50,14 @@ struct AgentRecord {
   Instant heard_until() const {
     return owner == nullptr ? reported_until : std::max(reported_until, owner->heard_until);
   }
-  /// The newest bound, wider by the margin: clearance keys are computed from it.
-  broad_phase::AgentBound wide_bound() const { return {margin.Widen(bound()), declaration.filter}; }
+  /// The newest bound, wider by the margin: clearance keys are computed from it. An agent that
+  /// expires with its newest state is there for a nanosecond, so that whom it met before is found.
+  broad_phase::AgentBound wide_bound() const {
+    motion::SpaceTimeBound wide = margin.Widen(bound());
+    const Instant next = Instant::FromNanoseconds(stamp().nanoseconds() + 1);
+    wide.state.expiry = std::max(wide.state.expiry, next);
+    return {wide, declaration.filter};
+  }
 };
 
 }  // namespace collision::detection

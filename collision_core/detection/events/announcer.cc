@@ -129,7 +129,13 @@ PairInterest Announcer::Report(const PairName& pair, const PairOutlook& outlook,
     Confirm(subject, *outlook.open);
     return PairInterest::kNear;
   }
-  if (finality == Finality::kLast) return PairInterest::kNear;
+  if (finality == Finality::kLast) {
+    // The two came and go within one step: Close() says that it is not known whether they touched.
+    if (!outlook.free() && !published->announced) {
+      Open(subject, {outlook.free_until, outlook.began_before});
+    }
+    return PairInterest::kNear;
+  }
   const double left = SecondsLeft(now_, outlook.free_until);
   const bool settled = outlook.settled_free && outlook.free();
   if (settled && left > kDismissFactor * options_.announce_within) {

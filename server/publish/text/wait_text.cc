@@ -18,7 +18,7 @@ std::string WaitText(const Awaited& awaited, const World& world) {
                          silent_ns / 1'000'000'000);
     }
     case WaitReason::kStands:
-      return awaited.name + ": was granted time and does not move";
+      return awaited.name + ": was granted time and has not made its next step";
     case WaitReason::kHasNoClock:
       return awaited.name + ": has started again, and no clock of it has been accepted yet";
     case WaitReason::kDoesNotFollowYet:

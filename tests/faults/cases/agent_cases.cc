@@ -92,6 +92,49 @@ void ChangesInLockStep(const Setting& setting, Outcome* outcome) {
   outcome->Expect(outcome->Get("lowered") > 0, "no promise was ever lowered");
 }
 
+/// Each place is taken by one agent after the other; most of them live for less than a second. One
+/// in three jumps.
+std::vector<Flight> ShortLived(int count, std::int64_t end_ns, Random* random) {
+  std::vector<Flight> flights;
+  for (int i = 0; i < count; ++i) {
+    const server::WanderOptions options{.half_side = 4,
+                                        .speed = 8,
+                                        .acceleration_max = kCalm,
+                                        .jumps_per_piece = i % 3 == 0 ? 0.4 : 0,
+                                        .piece_min_ns = 200 * kMillisecond,
+                                        .piece_max_ns = kSecond};
+    std::int64_t from_ns = static_cast<std::int64_t>(random->Uniform(0, 1) * 1e9);
+    // What counts only after the end of the run is announced by nobody.
+    while (from_ns < end_ns - 2 * kSecond) {
+      Flight flight{.motion = server::Wander(options, end_ns, random),
+                    .radius = random->Uniform(0.4, 1.2),
+                    .acceleration_max = kCalm,
+                    .from_ns = from_ns};
+      flight.until_ns = from_ns + static_cast<std::int64_t>(random->Uniform(0.1, 1.2) * 1e9);
+      from_ns = flight.until_ns + static_cast<std::int64_t>(random->Uniform(0.1, 0.5) * 1e9);
+      flights.push_back(std::move(flight));
+    }
+  }
+  return flights;
+}
+
+/// All of them are granted up to two seconds at once: most come and go within one round.
+void ShortLivesInLockStep(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(6, 100); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    Fleet fleet{.network = Faulty(seed), .seed = seed, .flights = ShortLived};
+    fleet.config.mutable_clock()->set_grant_ahead_max_s(2);
+    FlyAsPerfect(
+        fleet,
+        [&](Scene* scene) {
+          scene->When(fleet.end_ns - kSecond, [scene, outcome] { ReportChanges(*scene, outcome); });
+        },
+        outcome);
+  }
+  ExpectContacts(4, outcome);
+  outcome->Expect(outcome->Get("removed") >= 20 * outcome->Get("runs"), "hardly any agent left");
+}
+
 void ChangesOnTheWallClock(const std::function<Fleet(std::uint64_t seed)>& make,
                            const JudgeOptions& judge, int runs, Outcome* outcome) {
   for (int i = 0; i < runs; ++i) {
@@ -183,17 +226,21 @@ std::vector<Case> AgentCases() {
       "are removed and added";
   const std::string clocks = "; clocks off by up to 0.9 of 20 ms";
   const std::string within = promise + ", within the bound on clocks";
-  return {{"agents", "changes-lock-step",
-           promise + "; the same events, bit for bit, as on a perfect network", ChangesInLockStep,
-           network + changes},
-          {"agents", "shapes-lock-step",
-           promise + "; the same events, bit for bit, as on a perfect network", Shapes,
-           network + "; each agent has a shape, which is sent in two parts"},
-          {"agents", "changes-wall-clock", within, ChangesAtLeisure, network + changes + clocks},
-          {"agents", "changes-high-rate", within, ChangesAtAHighRate,
-           "three tenths lost and sent again 20 ms later, while each agent writes a sample of its "
-           "own every 5 to 31 ms; up to 5 ms of delay" +
-               changes + clocks}};
+  return {
+      {"agents", "changes-lock-step",
+       promise + "; the same events, bit for bit, as on a perfect network", ChangesInLockStep,
+       network + changes},
+      {"agents", "short-lives-lock-step",
+       promise + "; the same events, bit for bit, as on a perfect network", ShortLivesInLockStep,
+       network + "; agents jump, and most come and go within one grant of two seconds"},
+      {"agents", "shapes-lock-step",
+       promise + "; the same events, bit for bit, as on a perfect network", Shapes,
+       network + "; each agent has a shape, which is sent in two parts"},
+      {"agents", "changes-wall-clock", within, ChangesAtLeisure, network + changes + clocks},
+      {"agents", "changes-high-rate", within, ChangesAtAHighRate,
+       "three tenths lost and sent again 20 ms later, while each agent writes a sample of its "
+       "own every 5 to 31 ms; up to 5 ms of delay" +
+           changes + clocks}};
 }
 
 }  // namespace collision::faults

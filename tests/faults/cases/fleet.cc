@@ -96,6 +96,7 @@ void Report(const Judgement& judgement, std::uint64_t seed, suite::Outcome* outc
   outcome->Add("contacts", static_cast<double>(judgement.contacts));
   outcome->Add("confirmed", static_cast<double>(judgement.confirmed));
   outcome->Add("unserved", static_cast<double>(judgement.unserved));
+  outcome->Add("untold", static_cast<double>(judgement.untold));
   outcome->Add("late", static_cast<double>(judgement.late));
   outcome->Add("unheard", static_cast<double>(judgement.unheard));
   outcome->Add("relied_wrongly", static_cast<double>(judgement.relied));

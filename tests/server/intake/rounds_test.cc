@@ -1,5 +1,6 @@
-// Goal:   of the states that an agent sends in one round the newest counts, and those that break
-//         what it declares, whatever else arrives.
+// Goal:   of the states that an agent sends in one round the newest counts, its first, jumps, and
+//         those that break what it declares, whatever else arrives; also of an agent that comes and
+//         goes within the round.
 // Method: one simulator in a world without a bus; the test hands over each message.
 #include "tests/server/intake/agent_registry_fixture.h"
 
@@ -16,6 +17,18 @@ class RoundsTest : public AgentRegistryTest {
     state.mutable_position_m()->set_x(x);
     state.set_discontinuity(jumps);
     registry.TakeState(alpha, Chunk("alpha"), state);
+  }
+  /// Time has begun, and the simulator's next step is in an hour.
+  void BeginRound() {
+    alpha->time().Offer({.clock = Instant(), .next = Instant::FromNanoseconds(3600 * kSecond)});
+    ASSERT_TRUE(alpha->time().Take());
+    world.MoveOn();
+    ASSERT_TRUE(world.started() && world.RunsInRounds());
+  }
+  /// Without an end of the round.
+  void Announce(std::uint32_t slot) {
+    const v1::AgentDescription wire = Description("alpha", slot);
+    registry.Describe(alpha, wire, std::get<detection::AgentDeclaration>(DecodeDescription(wire)));
   }
   std::uint64_t BreachesOfRound() {
     const std::uint64_t before = detector.counters().breaches;
@@ -61,6 +74,67 @@ TEST_F(RoundsTest, ALeapThatIsDeclaredIsNoBreach) {
   Hear(30, 100);
   EXPECT_EQ(BreachesOfRound(), 0u);
   EXPECT_EQ(detector.counters().jumps, 1u);
+}
+
+TEST_F(RoundsTest, AnAgentBeginsWithItsFirstState) {
+  BeginRound();
+  Describe(0);
+  for (const std::uint64_t ms : {10, 20, 30, 40}) Hear(ms, 0);
+  EXPECT_EQ(BreachesOfRound(), 0u);
+  EXPECT_EQ(counters().states_accepted, 2u) << "the first and the newest";
+  ASSERT_TRUE(alpha->agents().Find(0)->admitted());
+  EXPECT_EQ(alpha->agents().Find(0)->acknowledged_sequence(), 40u);
+}
+
+TEST_F(RoundsTest, WhatAnAgentDoesBeforeItIsDescribedCounts) {
+  BeginRound();
+  Hear(10, 0);
+  Hear(20, 100, true);
+  Hear(30, 100);
+  Hear(40, 200, true);
+  Describe(0);
+  EXPECT_EQ(BreachesOfRound(), 0u);
+  EXPECT_EQ(detector.counters().jumps, 2u);
+  EXPECT_EQ(counters().states_accepted, 3u);
+}
+
+TEST_F(RoundsTest, AnAgentThatLeapsInItsFirstRoundHasBrokenItsWord) {
+  BeginRound();
+  Describe(0);
+  Hear(10, 0);
+  Hear(20, 100);
+  Hear(30, 0);
+  EXPECT_EQ(BreachesOfRound(), 2u);
+}
+
+TEST_F(RoundsTest, AnAgentThatComesAndGoesIsJudgedAtTheEndOfTheRound) {
+  BeginRound();
+  Announce(0);
+  Hear(10, 0);
+  Hear(20, 0);
+  registry.Remove(alpha, 0, 0);
+  EXPECT_NE(alpha->agents().Find(0), nullptr);
+  EXPECT_TRUE(registry.AllLeave(*alpha));
+  registry.Enact(alpha);
+  EXPECT_EQ(alpha->agents().Find(0), nullptr);
+  EXPECT_EQ(counters().admitted, 1u);
+  EXPECT_EQ(counters().removed, 1u);
+  EXPECT_EQ(detector.agents(), 0u);
+}
+
+// Its states may come after its removal, and its removal before time has begun.
+TEST_F(RoundsTest, WhatComesAfterTheRemovalInTheSameRoundCounts) {
+  Announce(0);
+  registry.Remove(alpha, 0, 0);
+  EXPECT_EQ(alpha->agents().Find(0), nullptr) << "time has not begun";
+  BeginRound();
+  Announce(1);
+  registry.Remove(alpha, 1, 0);
+  v1::AgentState state = State(1, 0, 1);
+  registry.TakeState(alpha, Chunk("alpha"), state);
+  registry.Enact(alpha);
+  EXPECT_EQ(counters().admitted, 1u);
+  EXPECT_EQ(counters().removed, 1u);
 }
 
 // It sped up to 10 ms, and told before the last two states that it would not any more.

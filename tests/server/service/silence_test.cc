@@ -89,7 +89,7 @@ TEST_F(SilenceTest, TheStatusTellsWhyTheWorldWaitsAndWhoIsEvicted) {
   daemon_.Step(Told("alpha", kTenth), 0.01);
   EXPECT_EQ(told("waiting_why"), "");
   daemon_.Step({}, 3.5);
-  EXPECT_EQ(told("waiting_why"), "beta: was granted time and does not move");
+  EXPECT_EQ(told("waiting_why"), "beta: was granted time and has not made its next step");
   daemon_.Step({Liveliness(2, "beta", false)}, 0.01);
   daemon_.Step({}, 7.5);
   EXPECT_EQ(told("waiting_why"), "beta: not heard for more than 8 s");

@@ -110,8 +110,15 @@ void BandQuery::TrackOrSaturate(const ClearanceQuery& query, const UncoveredPart
                                 Past past) {
   const Instant both = UncoveredFrom(context_.agents[query.agent], context_.agents[partner.partner],
                                      Instant::Always());
-  if (partner.free_until <= both) past = Past::kUnknown;
-  if (!pairs_.Track(query.agent, partner.partner, partner.free_until, past)) {
+  Instant free_until = partner.free_until;
+  // The partner may be renewed from an earlier time on; its own query leaves out tracked pairs.
+  const std::optional<Instant> renewed = coverage_[partner.partner].renewed_from;
+  if (renewed && *renewed < query.covered) {
+    free_until = std::min(free_until, std::max(*renewed, both));
+    past = Past::kUnknown;
+  }
+  if (free_until <= both) past = Past::kUnknown;
+  if (!pairs_.Track(query.agent, partner.partner, free_until, past)) {
     coverage_.Saturate(query.agent, partner.partner);
     coverage_.Saturate(partner.partner, query.agent);
   }

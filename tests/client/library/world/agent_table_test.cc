@@ -20,9 +20,10 @@ TEST(AgentTable, AJumpSurvivesALaterStagedState) {
   table.Stage(ball, {.stamp_ns = 1, .position_m = {51, 0, 0}, .discontinuity = true});
   table.Stage(ball, {.stamp_ns = 2, .position_m = {51, 0, 0}});
   EXPECT_TRUE(table.TakeDue(1).empty());
-  const v1::AgentState sent = table.TakeDue(2).at(0).states(0);
-  EXPECT_EQ(sent.position_m().x(), 51);
-  EXPECT_TRUE(sent.discontinuity());
+  const v1::AgentStates sent = table.TakeDue(2).at(0);
+  ASSERT_EQ(sent.states_size(), 2) << "behind the first state";
+  EXPECT_EQ(sent.states(1).position_m().x(), 51);
+  EXPECT_TRUE(sent.states(1).discontinuity());
 }
 
 // Each of two agents has been where it cannot have been, a hundred times.
@@ -52,6 +53,10 @@ TEST(AgentTable, WhatWasDeclaredBeforeCountsUpToTheNextState) {
   AgentTable table("simulator", 1, 1, 1, {});
   const AgentId ball = table.Add({.name = "ball", .acceleration_max_m_s2 = 2}, {.stamp_ns = 0});
   table.TakeDue(0);
+  v1::AgentClearance first;
+  first.set_generation(1);
+  first.set_acknowledged_sequence(1);
+  table.SetClearance(first, 0);
   table.Describe(ball, {.name = "ball", .acceleration_max_m_s2 = 0});
   const auto carried = [&](std::int64_t stamp_ns, double x, double v) {
     table.Stage(ball, {.stamp_ns = stamp_ns, .position_m = {x, 0, 0}, .velocity_m_s = {v, 0, 0}});
@@ -62,8 +67,8 @@ TEST(AgentTable, WhatWasDeclaredBeforeCountsUpToTheNextState) {
   EXPECT_EQ(carried(3 * kSecond, 6, 4), 1) << "the state before, which this one belies";
 }
 
-// Lock-step: a removed agent's last states stand until the round is over, which may take several
-// steps, and the clock that ends it names them.
+// Lock-step: a removed agent's last states, sent with the next clock, stand until the round is
+// over, which may take several steps, and the clock that ends it names them.
 TEST(AgentTable, AClockNamesOnlyStatesThatStand) {
   AgentTable table("simulator", 1, 1, 1, {});
   const AgentId first = table.Add({.name = "first"}, {.stamp_ns = 0});
@@ -71,17 +76,22 @@ TEST(AgentTable, AClockNamesOnlyStatesThatStand) {
   table.TakeDue(0);
   EXPECT_EQ(table.Clock(0, 0, true).states_sequence(), 2u);
   table.Remove(second);
+  table.EndRound();
   EXPECT_EQ(table.Clock(0, 0, true).states_sequence(), 2u) << "it stays in its chunk for now";
-  EXPECT_TRUE(table.TakeDue(1).empty());
-  EXPECT_EQ(table.Clock(1, 0, true).states_sequence(), 2u);
+  const v1::AgentStates last = table.TakeDue(1).at(0);
+  ASSERT_EQ(last.states_size(), 2);
+  EXPECT_EQ(last.states(1).expiry_ns(), 0) << "when it left";
+  EXPECT_EQ(table.Clock(1, 0, true).states_sequence(), 3u);
+  EXPECT_TRUE(table.TakeDue(2).empty());
   table.EndRound();
-  ASSERT_EQ(table.TakeDue(2).size(), 1u);
+  ASSERT_EQ(table.TakeDue(3).size(), 1u);
   EXPECT_EQ(table.SentStates().at(0).states_size(), 1);
-  EXPECT_EQ(table.Clock(2, 0, true).states_sequence(), 1u);
+  EXPECT_EQ(table.Clock(3, 0, true).states_sequence(), 1u);
   table.Remove(first);
+  table.TakeDue(4);
   table.EndRound();
-  table.TakeDue(3);
-  EXPECT_EQ(table.Clock(3, 0, true).states_sequence(), 0u);
+  table.TakeDue(5);
+  EXPECT_EQ(table.Clock(5, 0, true).states_sequence(), 0u);
   EXPECT_EQ(table.stated(), 0u);
 }
 

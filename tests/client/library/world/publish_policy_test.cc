@@ -107,6 +107,26 @@ TEST_F(OutgoingStatesTest, OfMoreStatesThanTheBoundTheNewestAreCarried) {
   EXPECT_EQ(states_.carried().back().sequence, 99u);
 }
 
+// What it met before the state that arrives could not be told.
+TEST_F(OutgoingStatesTest, TheFirstStateIsCarriedUntilItIsAcknowledgedUnlessItIsCorrected) {
+  Stage(DriftingAt(kSecond));
+  Send(1);
+  State corrected = DriftingAt(kSecond);
+  corrected.position_m[1] = 100;
+  Stage(corrected);
+  Send(2);
+  EXPECT_EQ(Carried(), std::vector<std::uint64_t>{});
+  for (std::uint64_t sequence = 3; sequence <= 5; ++sequence) {
+    State state = DriftingAt(static_cast<std::int64_t>(sequence) * kSecond);
+    state.position_m[1] = 100;
+    Stage(state);
+    Send(sequence);
+  }
+  EXPECT_EQ(Carried(), std::vector<std::uint64_t>{2});
+  Answer(kNever, 2);
+  EXPECT_EQ(Carried(), std::vector<std::uint64_t>{});
+}
+
 // At 2 s it is 100 m away, and at 3 s it has returned.
 TEST_F(OutgoingStatesTest, BothEndsOfAMotionThatBreaksTheBoundsAreCarried) {
   for (std::uint64_t sequence = 1; sequence <= 5; ++sequence) {
@@ -114,6 +134,7 @@ TEST_F(OutgoingStatesTest, BothEndsOfAMotionThatBreaksTheBoundsAreCarried) {
     if (sequence == 3) state.position_m[1] = 100;
     Stage(state);
     Send(sequence);
+    if (sequence == 1) Answer(kNever, 1);
   }
   EXPECT_EQ(Carried(), (std::vector<std::uint64_t>{2, 3, 4}));
   Answer(kNever, 3);

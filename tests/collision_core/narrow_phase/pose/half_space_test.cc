@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/gmp.hpp>
+#include <set>
 
 #include "collision_core/narrow_phase/contact/shape_contact.h"
 #include "collision_core/narrow_phase/pose/segment_pose.h"
 #include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/sphere_tree/tree_check.h"
 #include "tests/support/random.h"
 #include "tests/support/truth/exact.h"
 
@@ -69,7 +71,7 @@ Case Draw(Random* random) {
   Case c;
   c.normal = random->UnitVector();
   if (random->Below(4) == 0) c.normal = Vector3d::Unit(static_cast<Eigen::Index>(random->Below(3)));
-  const double size = random->LogUniform(1e-2, 1e3), far = random->LogUniform(1, 1e9);
+  const double size = random->LogUniform(1e-2, 1e6), far = random->LogUniform(1, 1e9);
   for (int i = 0; i < 6; ++i) c.points.push_back(size * random->UnitVector());
   c.rounding = random->Below(2) == 0 ? 0 : 0.25 * size;
   c.position = far * random->UnitVector();
@@ -139,6 +141,19 @@ TEST(HalfSpaceStandIn, TheBlockLooksEndlessForAsLongAsTheBodyMoves) {
   EXPECT_GE(found.separation.upper, 1e3 - 1);
   EXPECT_GE(found.separation.lower, 500);
   EXPECT_GE(bodies.b.shape->facts().radius, 4 * 7e5);
+}
+
+TEST(HalfSpaceStandIn, TheTreesOfAllBlocksAreWellFormed) {
+  const auto floor = shape::FixedHalfSpace::Build({0, 0, 1}, 0)->WithBlocks();
+  std::set<double> radii;
+  double reach = 1e-5;
+  while (const auto block = floor->Around(Vector3d::Zero(), reach)) {
+    EXPECT_EQ(RefusalOf(block->shape->tree(), {.solids = 1}), std::nullopt) << reach;
+    radii.insert(block->shape->facts().radius);
+    reach *= 2;
+  }
+  EXPECT_EQ(radii.size(), 14u);
+  EXPECT_GT(*radii.rbegin(), 1e8);
 }
 
 TEST(HalfSpaceStandIn, GrownItsPlaneLiesHigherByThatMuchAtLeast) {

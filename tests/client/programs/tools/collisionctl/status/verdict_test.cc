@@ -66,14 +66,14 @@ TEST_F(VerdictTest, NamesAllForWhomTimeWaitsBeforeTheReasonOfEach) {
   v1::ServiceStatus* status = Status();
   Extend(status, "waiting_for", "one, one-b, simulators to come: 2, shape ab12, +7 more");
   Extend(status, "waiting_why",
-         "one-b: not back, one: was granted time and does not move, "
+         "one-b: not back, one: was granted time and has not made its next step, "
          "simulators to come: 2 before time begins (clock.simulators_awaited), "
          "shape ab12: not there yet or still being built, +7 more");
   const std::string advice = "; let it go on, start it again, or give it up: collisionctl evict ";
   EXPECT_EQ(Now(),
             (Lines{"WAITS for one, one-b, simulators to come: 2, shape ab12, +7 more: the world's "
                    "time stands",
-                   "  one: was granted time and does not move" + advice + "one",
+                   "  one: was granted time and has not made its next step" + advice + "one",
                    "  one-b: not back" + advice + "one-b",
                    "  simulators to come: 2: before time begins (clock.simulators_awaited); start "
                    "them",
