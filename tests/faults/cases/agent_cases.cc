@@ -14,6 +14,16 @@ namespace {
 
 constexpr double kCalm = 4, kWild = 12;  ///< Bounds on the acceleration [m/s²].
 
+/// In a cube of this size [m].
+server::WanderOptions Wandering(double half_side, bool jumps) {
+  return {.half_side = half_side,
+          .speed = 8,
+          .acceleration_max = kCalm,
+          .jumps_per_piece = jumps ? 0.4 : 0,
+          .piece_min_ns = 200 * kMillisecond,
+          .piece_max_ns = kSecond};
+}
+
 /// Faster changes of the velocity between the two instants, three times as wild.
 Motion WildBetween(const Motion& calm, std::int64_t from_ns, std::int64_t until_ns) {
   Motion motion = calm;
@@ -35,12 +45,7 @@ Motion WildBetween(const Motion& calm, std::int64_t from_ns, std::int64_t until_
 std::vector<Flight> Changing(int count, std::int64_t end_ns, std::int64_t lead_ns, Random* random) {
   std::vector<Flight> flights;
   for (int i = 0; i < count; ++i) {
-    const server::WanderOptions options{.half_side = 7,
-                                        .speed = 8,
-                                        .acceleration_max = kCalm,
-                                        .jumps_per_piece = i % 3 == 0 ? 0.4 : 0,
-                                        .piece_min_ns = 200 * kMillisecond,
-                                        .piece_max_ns = kSecond};
+    const server::WanderOptions options = Wandering(7, i % 3 == 0);
     Flight flight{.motion = server::Wander(options, end_ns, random),
                   .radius = random->Uniform(0.4, 1.2),
                   .acceleration_max = kCalm};
@@ -97,12 +102,7 @@ void ChangesInLockStep(const Setting& setting, Outcome* outcome) {
 std::vector<Flight> ShortLived(int count, std::int64_t end_ns, Random* random) {
   std::vector<Flight> flights;
   for (int i = 0; i < count; ++i) {
-    const server::WanderOptions options{.half_side = 4,
-                                        .speed = 8,
-                                        .acceleration_max = kCalm,
-                                        .jumps_per_piece = i % 3 == 0 ? 0.4 : 0,
-                                        .piece_min_ns = 200 * kMillisecond,
-                                        .piece_max_ns = kSecond};
+    const server::WanderOptions options = Wandering(4, i % 3 == 0);
     std::int64_t from_ns = static_cast<std::int64_t>(random->Uniform(0, 1) * 1e9);
     // What counts only after the end of the run is announced by nobody.
     while (from_ns < end_ns - 2 * kSecond) {
