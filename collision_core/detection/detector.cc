@@ -33,8 +33,8 @@ const motion::MotionState* Detector::StateOf(const AgentId& id) const {
 void Detector::ForEachAgent(const std::function<void(const HeldAgent&)>& use) const {
   implementation_->ForEachAgent(use);
 }
-void Detector::SetHeardUntil(const OwnerId& owner, Instant until) {
-  implementation_->SetHeardUntil(owner, until);
+void Detector::SetHeardUntil(const OwnerId& owner, Instant until, Instant still_until) {
+  implementation_->SetHeardUntil(owner, until, still_until);
 }
 void Detector::SetPairShare(const OwnerId& owner, const Share& share) {
   implementation_->SetPairShare(owner, share);

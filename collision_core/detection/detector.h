@@ -87,9 +87,9 @@ class Detector {
   /// on. False: unknown agent. Requires, like Admit(), that a shape that is awaited is null.
   bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
 
-  /// The owner gives the agent up. Once `now` has reached the time that its owner has reported, its
-  /// confirmed events end and its possible ones become undecided or withdrawn. False: unknown
-  /// agent.
+  /// The owner gives the agent up. Once `now` has reached the expiry of its newest state, or else
+  /// the time that its owner has reported, its confirmed events end and its possible ones become
+  /// undecided or withdrawn. False: unknown agent.
   bool Remove(const AgentId& id);
 
   /// The newest state of an agent, until the next call that is not const; null: there is no such
@@ -103,7 +103,9 @@ class Detector {
   /// The owner, one run of a simulator, has reported everything about its agents up to `until`:
   /// contacts are evaluated up to there. Holds for all agents of the owner, also for those admitted
   /// later; has no effect while it has none. Never goes back. O(log owners).
-  void SetHeardUntil(const OwnerId& owner, Instant until);
+  /// `still_until`: it has also said that none of its agents jumps before that time, so that a
+  /// contact with one that leaves by then is certain.
+  void SetHeardUntil(const OwnerId& owner, Instant until, Instant still_until = Instant::Always());
 
   /// The owner's part of `pairs_max`; a pair of two owners counts for both. Beyond it, its agents
   /// are saturated, and so are agents of others that meet them. Has no effect while it has no

@@ -147,8 +147,8 @@ bool Detector::Implementation::Redeclare(const AgentId& id, const AgentDeclarati
   return true;
 }
 
-// The agent stays in the table up to the time that its owner has reported; its pairs are evaluated
-// up to then.
+// The agent stays in the table up to the time at which it has left; its pairs are evaluated up to
+// then.
 bool Detector::Implementation::Remove(const AgentId& id) {
   const AgentIndex agent = agents_.Find(id);
   if (agent.is_none()) return false;

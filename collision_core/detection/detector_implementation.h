@@ -27,7 +27,9 @@ class Detector::Implementation {
   bool Remove(const AgentId& id);
   const motion::MotionState* StateOf(const AgentId& id) const;
   void ForEachAgent(const std::function<void(const HeldAgent&)>& use) const;
-  void SetHeardUntil(const OwnerId& owner, Instant until) { agents_.SetHeardUntil(owner, until); }
+  void SetHeardUntil(const OwnerId& owner, Instant until, Instant still_until) {
+    agents_.SetHeardUntil(owner, until, still_until);
+  }
   void SetPairShare(const OwnerId& owner, const Share& share) { pairs_.SetShare(owner, share); }
   void VoidOwner(const OwnerId& owner, Instant from);
   void Advance(Instant now, const std::function<void()>& progress);

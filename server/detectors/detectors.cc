@@ -66,8 +66,8 @@ motion::BrokenBound Detectors::ExplainLastBreach(const detection::AgentId& id) c
   return DetectorOf(id).ExplainLastBreach();
 }
 
-void Detectors::SetHeardUntil(const detection::OwnerId& owner, Instant until) {
-  Each([&](auto& one) { In(one).SetHeardUntil(owner, until); });
+void Detectors::SetHeardUntil(const detection::OwnerId& owner, Instant until, Instant still_until) {
+  Each([&](auto& one) { In(one).SetHeardUntil(owner, until, still_until); });
 }
 
 void Detectors::SetPairShare(const detection::OwnerId& owner, const Share& share) {

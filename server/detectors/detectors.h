@@ -37,7 +37,7 @@ class Detectors {
   const motion::MotionState* StateOf(const detection::AgentId& id) const;
   /// Of the agent whose Update() was the last one, and returned kBreached.
   motion::BrokenBound ExplainLastBreach(const detection::AgentId& id) const;
-  void SetHeardUntil(const detection::OwnerId& owner, Instant until);
+  void SetHeardUntil(const detection::OwnerId& owner, Instant until, Instant still_until);
   void SetPairShare(const detection::OwnerId& owner, const Share& share);
   void VoidOwner(const detection::OwnerId& owner, Instant from);
 

@@ -344,7 +344,10 @@ bool AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const Waitin
   }
   CountAccepted(simulator);
   simulator->agents().Admit(slot, stamp, waiting.sequence);
-  if (simulator->time().clock()) detectors_.SetHeardUntil(OwnerOf(id), *simulator->time().clock());
+  if (simulator->time().clock()) {
+    detectors_.SetHeardUntil(OwnerOf(id), *simulator->time().clock(),
+                             simulator->time().told_until());
+  }
   return true;
 }
 

@@ -340,7 +340,8 @@ void Intake::TakeShapeRemoval(const v1::Input& input) {
 void Intake::Enact(Simulator* simulator) {
   agents_.Enact(simulator);
   if (!simulator->time().clock()) return;
-  detectors_.SetHeardUntil({simulator->id(), simulator->run()}, *simulator->time().clock());
+  detectors_.SetHeardUntil({simulator->id(), simulator->run()}, *simulator->time().clock(),
+                           simulator->time().told_until());
 }
 
 void Intake::Enact() {

@@ -16,7 +16,8 @@ namespace collision::detection {
 struct Owner {
   /// The owner has reported everything about its agents up to here.
   Instant heard_until = Instant::Always();
-  std::uint32_t agents = 0;  ///< Its agents that are not removed.
+  Instant still_until = Instant::Always();  ///< None of its agents jumps before.
+  std::uint32_t agents = 0;                 ///< Its agents that are not removed.
 };
 
 /// One agent. `history` is never empty once the agent is in the table.
@@ -31,6 +32,7 @@ struct AgentRecord {
   Instant admitted_from = Instant::Always();   ///< Nothing is known, or promised, before.
   Instant reported_until = Instant::Always();  ///< The newest stamp; once removed, heard_until().
   const Owner* owner = nullptr;                ///< Null once removed.
+  Instant left_by = Instant::Never();          ///< Once removed: the expiry that it was told with.
   std::uint64_t removal = 0;      ///< Position in the order of removals, from 1; 0: not removed.
   bool expired = false;           ///< Promises exclude the agent: its last state has run out.
   bool shape_redeclared = false;  ///< The shape was declared anew since the newest state.
@@ -49,6 +51,12 @@ struct AgentRecord {
   /// The owner has reported everything about the agent up to here: no state before it will come.
   Instant heard_until() const {
     return owner == nullptr ? reported_until : std::max(reported_until, owner->heard_until);
+  }
+  /// It is not there any more from then on; never: its owner has not said.
+  Instant gone_from() const { return removal != 0 ? left_by : bound().state.expiry; }
+  /// It does not jump before.
+  Instant still_until() const {
+    return owner == nullptr ? reported_until : std::max(heard_until(), owner->still_until);
   }
   /// The newest bound, wider by the margin: clearance keys are computed from it. An agent that
   /// expires with its newest state is there for a nanosecond, so that whom it met before is found.

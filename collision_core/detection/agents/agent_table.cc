@@ -84,10 +84,11 @@ void AgentTable::RecordBound(AgentIndex agent) {
   record.features = features;
 }
 
-void AgentTable::SetHeardUntil(const OwnerId& owner, Instant until) {
+void AgentTable::SetHeardUntil(const OwnerId& owner, Instant until, Instant still_until) {
   const auto found = owners_.find(owner);
   if (found == owners_.end()) return;
   found->second.heard_until = std::max(found->second.heard_until, until);
+  found->second.still_until = std::max(found->second.still_until, still_until);
 }
 
 // The owner reports nothing more about the agent: what is known now is all there is.
@@ -103,7 +104,9 @@ void AgentTable::Remove(AgentIndex agent) {
   CORE_CHECK(record.removal == 0, "an agent is removed once", agent.value());
   LeaveOwner(&record);
   Instant& expiry = record.history.newest().bound.state.expiry;
-  expiry = std::min(expiry, record.reported_until);
+  record.left_by = expiry;
+  if (expiry.is_never()) expiry = record.reported_until;
+  record.reported_until = std::max(record.reported_until, expiry);
   expiries_.Set(agent, expiry);
   record.removal = ++removals_;
   profile_.Remove(record.features);

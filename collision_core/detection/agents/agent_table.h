@@ -66,9 +66,10 @@ class AgentTable {
   /// The owner has reported everything about its agents up to `until`. O(log owners), whatever the
   /// number of agents. Has no effect for an owner without agents in the table, or if `until` is
   /// earlier than before.
-  void SetHeardUntil(const OwnerId& owner, Instant until);
+  void SetHeardUntil(const OwnerId& owner, Instant until, Instant still_until = Instant::Always());
 
-  /// The owner gives the agent up. The agent expires at heard_until() at the latest.
+  /// The owner gives the agent up. Unless its newest state has an expiry, the agent expires at
+  /// heard_until().
   void Remove(AgentIndex agent);
   /// Takes the agents that expire by `now` out of the queue: first the removed ones in the order of
   /// their removal, then the others in the order of their ids.

@@ -105,6 +105,12 @@ Instant History::LastStampBefore(Instant t) const {
   return Instant::Never();
 }
 
+bool History::BeginsAt(Instant t) const {
+  return std::any_of(samples_.begin(), samples_.end(), [t](const Sample& sample) {
+    return sample.bound.state.stamp == t && sample.link == Link::kJumped;
+  });
+}
+
 const History::Sample* History::Uninterrupted(Instant t) const {
   const std::size_t k = InForce(t);
   if (k == samples_.size()) return nullptr;

@@ -70,6 +70,9 @@ class History {
   /// from a jump or a breach.
   Instant LastStampBefore(Instant t) const;
 
+  /// Whether a state at `t` began a motion: the first one, or a jump.
+  bool BeginsAt(Instant t) const;
+
   /// The sample in force at `t`, if every later one follows from it; else nullptr.
   const Sample* Uninterrupted(Instant t) const;
 

@@ -156,18 +156,18 @@ void Announcer::Announce(const PairName& pair, Instant free_until, bool began_be
 }
 
 void Announcer::Close(const PairName& pair, const ContactEpisode* open, Departure departure,
-                      PublishedEvent* published) {
+                      Instant until, PublishedEvent* published) {
   const Subject subject{pair, nullptr, *published};
   if (!published->announced) return;
   CollisionEvent& event = published->event;
   if (event.status == EventStatus::kConfirmed) {
-    if (departure == Departure::kRemoved) event.end.latest = std::max(now_, event.end.earliest);
-    const Instant until = event.end.latest.is_never() ? event.end.earliest : event.end.latest;
-    TakeClosest({event.begin.earliest, until}, 0, pair.size, published);
+    if (departure == Departure::kRemoved) event.end.latest = std::max(until, event.end.earliest);
+    const Instant end = event.end.latest.is_never() ? event.end.earliest : event.end.latest;
+    TakeClosest({event.begin.earliest, end}, 0, pair.size, published);
     Emit(subject, EventStatus::kEnded);
   } else if (open != nullptr) {
     // What is known of the two does not exclude a contact.
-    event.begin = event.end = {open->begin.earliest, std::max(now_, open->begin.earliest)};
+    event.begin = event.end = {open->begin.earliest, std::max(until, open->begin.earliest)};
     TakeProximity(open->nearest, open->normal, &event);
     Emit(subject, EventStatus::kUndecided);
   } else {

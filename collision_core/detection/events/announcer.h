@@ -65,7 +65,7 @@ enum class Finality {
 
 /// Why a pair is no longer watched.
 enum class Departure {
-  kRemoved,   ///< An agent was removed: a contact has ended by now.
+  kRemoved,   ///< An agent was removed: a contact has ended by then.
   kUnwatched  ///< An agent expired, or filters keep the two apart: a contact's end is unknown.
 };
 
@@ -97,9 +97,10 @@ class Announcer {
   void Announce(const PairName& pair, Instant free_until, bool began_before,
                 EncounterSource* encounter, PublishedEvent* published);
 
-  /// The pair is no longer watched: gives its event a final status. A confirmed event ends; a
-  /// possible one is undecided if an episode is open (`open`; null: free), else withdrawn.
-  void Close(const PairName& pair, const ContactEpisode* open, Departure departure,
+  /// The pair is no longer watched, since both were there up to `until`: gives its event a final
+  /// status. A confirmed event ends; a possible one is undecided if an episode is open (`open`;
+  /// null: free), else withdrawn.
+  void Close(const PairName& pair, const ContactEpisode* open, Departure departure, Instant until,
              PublishedEvent* published);
 
   /// Forgets the contact numbers of an agent that has left.

@@ -55,6 +55,11 @@ void ContactTracker::Open(Instant free_until, const narrow_phase::ContactNormal&
   began_before_ = false;
 }
 
+void ContactTracker::OpenAt(Instant at) {
+  CORE_CHECK(free() && at_ == at, "an episode opens where freedom ends", at.nanoseconds());
+  Open(at, {});
+}
+
 void ContactTracker::Close(Instant free_from) {
   episode_.end.latest = free_from;
   if (!episode_.contact) {
@@ -110,7 +115,7 @@ void ContactTracker::Apply(const narrow_phase::SegmentResult& given, Instant to,
        nearest.found.separation.upper < episode_.nearest.found.separation.upper)) {
     episode_.nearest = nearest;
   }
-  if (result.contact_from <= result.contact_to) AddContact(result, from, to);
+  if (confirms_ && result.contact_from <= result.contact_to) AddContact(result, from, to);
   const Instant free_from = numeric::AddRoundedUp(from, result.free_from);
   if (free_from < to) Close(free_from);
 }

@@ -50,6 +50,12 @@ class ContactTracker {
   void Apply(const narrow_phase::SegmentResult& given, Instant to, const NearestInstant& nearest,
              const narrow_phase::ContactNormal& normal);
 
+  /// From here on freedom alone is certain: contacts that are added stay doubts.
+  void ConfirmNothing() { confirms_ = false; }
+
+  /// The two may touch at this instant, from which on nothing is known. Requires free() and at().
+  void OpenAt(Instant at);
+
   /// Episodes that have ended since the last call.
   std::vector<ContactEpisode> TakeFinished();
   const std::vector<ContactEpisode>& finished() const { return finished_; }
@@ -61,6 +67,7 @@ class ContactTracker {
 
   Instant at_;
   bool open_ = false;
+  bool confirms_ = true;
   bool began_before_;
   Instant contact_until_ = Instant::Always();  // contact certified without a gap up to here
   ContactEpisode episode_;

@@ -41,13 +41,20 @@ Instant PairEvaluator::SettledUntil(const AgentRecord& agent) const {
       std::min(agent.heard_until(), numeric::AddRoundedDown(clock_.now, -LongestWaitFor(agent))));
 }
 
+Instant PairEvaluator::BothThereUntil(const PairOfAgents& agents) const {
+  return std::min(clock_.now, ExpiryOf(agents));
+}
+
 Instant PairEvaluator::HeardUntil(const PairOfAgents& agents) const {
   return std::min(
-      {agents.lower.heard_until(), agents.higher.heard_until(), clock_.now, ExpiryOf(agents)});
+      {agents.lower.heard_until(), agents.higher.heard_until(), BothThereUntil(agents)});
 }
 
 Instant PairEvaluator::SettledUntil(const PairOfAgents& agents, Finality finality) const {
-  if (finality == Finality::kLast) return HeardUntil(agents);
+  if (finality == Finality::kLast) {
+    return std::min(
+        {agents.lower.still_until(), agents.higher.still_until(), BothThereUntil(agents)});
+  }
   return std::min({SettledUntil(agents.lower), SettledUntil(agents.higher), ExpiryOf(agents)});
 }
 
@@ -67,6 +74,7 @@ ContactTracker PairEvaluator::Evaluate(const PairOfAgents& agents, Finality fina
     const WorkShare share(last ? 1 : kSettledShare, work);
     EvaluateUntil(agents, SettledUntil(agents, finality), work, &agents.pair.tracker);
   }
+  if (last) EvaluateUnheard(agents, work);
   ContactTracker preview = agents.pair.tracker;
   preview.TakeFinished();
   {
@@ -75,6 +83,19 @@ ContactTracker PairEvaluator::Evaluate(const PairOfAgents& agents, Finality fina
   }
   if (preview.free() && !last) ExtendPromise(agents, work, &preview);
   return preview;
+}
+
+// A contact at the last instant alone is no segment: of an agent that came or jumped then.
+void PairEvaluator::EvaluateUnheard(const PairOfAgents& agents, WorkBudget* work) const {
+  ContactTracker& tracker = agents.pair.tracker;
+  if (!tracker.free()) return;
+  const Instant until = BothThereUntil(agents);
+  tracker.ConfirmNothing();
+  EvaluateUntil(agents, until, work, &tracker);
+  const bool begins = agents.lower.history.BeginsAt(until) || agents.higher.history.BeginsAt(until);
+  if (!tracker.free() || tracker.at() != until || !begins) return;
+  const Instant meet = queries_.EarliestOfWide(agents.pair.lower, agents.pair.higher, until);
+  if (meet <= until) tracker.OpenAt(until);
 }
 
 void PairEvaluator::ExtendPromise(const PairOfAgents& agents, WorkBudget* work,

@@ -31,8 +31,9 @@ class PairEvaluator {
       : clock_(context.clock), counters_(context.counters), queries_(context) {}
 
   /// Brings pair.tracker up to what is settled and returns a copy of it that runs ahead to the last
-  /// horizon that holds. Requires that the two can meet. With Finality::kLast all that was heard is
-  /// settled, and nothing is promised.
+  /// horizon that holds. Requires that the two can meet. With Finality::kLast all is settled up to
+  /// where neither has jumped; beyond, while both were there, no contact is certain, and nothing is
+  /// promised.
   ContactTracker Evaluate(const PairOfAgents& agents, Finality finality, WorkBudget* work) const;
 
   /// How far Evaluate() settles a pair: nothing that comes later changes anything before.
@@ -44,9 +45,11 @@ class PairEvaluator {
 
  private:
   Instant SettledUntil(const AgentRecord& agent) const;
+  Instant BothThereUntil(const PairOfAgents& agents) const;
   Instant HeardUntil(const PairOfAgents& agents) const;
   void EvaluateUntil(const PairOfAgents& agents, Instant until, WorkBudget* work,
                      ContactTracker* tracker) const;
+  void EvaluateUnheard(const PairOfAgents& agents, WorkBudget* work) const;
   void ExtendPromise(const PairOfAgents& agents, WorkBudget* work, ContactTracker* preview) const;
 
   const StepClock& clock_;

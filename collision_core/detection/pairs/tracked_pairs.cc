@@ -380,7 +380,10 @@ void TrackedPairs::EvaluateLastTime(AgentIndex agent, Departure departure) {
 void TrackedPairs::Drop(PairSlot slot, Departure departure) {
   PairRecord& pair = table_[slot];
   const ContactEpisode* open = pair.tracker.free() ? nullptr : &pair.tracker.episode();
-  announcer_.Close(NameOf(slot), open, departure, &pair.published);
+  const AgentTable& agents = context_.agents;
+  const Instant until = std::min(
+      {agents[pair.lower].gone_from(), agents[pair.higher].gone_from(), context_.clock.now});
+  announcer_.Close(NameOf(slot), open, departure, until, &pair.published);
   Remove(slot);
 }
 

@@ -162,7 +162,9 @@ TEST(Detector, ExpiredAgentsLeaveThePromises) {
   ASSERT_EQ(line.With(EventStatus::kPossible).size(), 1u);
   line.now = 2;
   line.Step();
-  EXPECT_EQ(line.With(EventStatus::kWithdrawn).size(), 1u);
+  const std::vector<CollisionEvent> undecided = line.With(EventStatus::kUndecided);
+  ASSERT_EQ(undecided.size(), 1u) << "they may have met before";
+  EXPECT_EQ(undecided[0].end.latest, At(2));
   EXPECT_EQ(line.detector.ClearanceOf(Id(2))->clear_until, Instant::Never());
   // A new state comes: promises include the agent from here on.
   line.detector.Update(Id(1), State(3, {0, 0, 0}, {0, 0, 0}), At(3));

@@ -169,6 +169,72 @@ TEST_P(ShortLives, WhateverTheyMetIsToldAndNothingElse) {
   EXPECT_GT(certain, contacts / 2);
 }
 
+/// A ball at rest at the origin, of which nothing has been heard since 0 s, and one that passes
+/// through it from 3 to 4 s and leaves then; they touch from 3.25 to 3.75 s.
+std::vector<CollisionEvent> EventsOfPassing(Instant still_until) {
+  Detector detector({});
+  const AgentDeclaration ball{.limits = {0.5, 0.01}};
+  detector.Admit(Id(0), ball, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+  detector.SetHeardUntil(OwnerOf(Id(0)), At(0), still_until);
+  detector.Advance(At(0));
+  detector.Admit(Id(1), ball, State(3, {-2, 0, 0}, {4, 0, 0}), At(10));
+  motion::MotionState last = State(4, {2, 0, 0}, {4, 0, 0});
+  last.expiry = last.stamp;
+  detector.Update(Id(1), last, At(10));
+  detector.Remove(Id(1));
+  detector.Advance(At(10));
+  return detector.events();
+}
+
+TEST(ShortLife, AContactWithOneThatMakesNoStepMeanwhileIsCertain) {
+  const std::vector<CollisionEvent> events = EventsOfPassing(At(15));
+  ASSERT_EQ(events.back().status, EventStatus::kEnded);
+  EXPECT_LE(events.back().begin.earliest, At(3.25));
+  EXPECT_GE(events.back().begin.latest, At(3.25));
+  EXPECT_LE(events.back().begin.latest, At(3.3));
+  EXPECT_LE(events.back().end.earliest, At(3.75));
+  EXPECT_GE(events.back().end.latest, At(3.75));
+}
+
+TEST(ShortLife, WithOneThatMayHaveJumpedItIsADoubt) {
+  const std::vector<CollisionEvent> events = EventsOfPassing(Instant::Always());
+  ASSERT_EQ(events.back().status, EventStatus::kUndecided);
+  EXPECT_LE(events.back().begin.earliest, At(3.25));
+  EXPECT_GE(events.back().begin.earliest, At(3.2));
+  EXPECT_GE(events.back().end.latest, At(3.75));
+  EXPECT_LE(events.back().end.latest, At(3.8));
+}
+
+TEST(ShortLife, WhatTouchesForAnInstantOnlyIsADoubt) {
+  for (const auto& [touches, jumps] :
+       {std::pair(true, false), std::pair(false, false), std::pair(true, true)}) {
+    Detector detector({});
+    const AgentDeclaration ball{.limits = {0.5, 0.01}};
+    detector.Admit(Id(0), ball, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+    // The second one jumps there, and is told again with its end.
+    motion::MotionState only = State(5, {touches ? 0.75 : 3, 0, 0}, {0, 0, 0});
+    if (jumps) {
+      detector.Admit(Id(1), ball, State(4, {100, 0, 0}, {0, 0, 0}), At(10));
+      only.discontinuity = true;
+      detector.Update(Id(1), only, At(10));
+      only.discontinuity = false;
+    } else {
+      detector.Admit(Id(1), ball, only, At(10));
+    }
+    only.expiry = only.stamp;
+    detector.Update(Id(1), only, At(10));
+    detector.Remove(Id(1));
+    detector.Advance(At(10));
+    if (!touches) {
+      EXPECT_TRUE(detector.events().empty());
+      continue;
+    }
+    ASSERT_FALSE(detector.events().empty());
+    EXPECT_EQ(detector.events().back().status, EventStatus::kUndecided);
+    EXPECT_EQ(detector.events().back().begin, (TimeBracket{At(5), At(5)}));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Endings, ShortLives, testing::Values(Ending::kExpiry, Ending::kRemoval));
 
 }  // namespace

@@ -70,7 +70,7 @@ class ScreeningDetectorTest : public testing::Test {
       for (const Mover& mover : movers_) {
         const auto outcome = detectors_.Update(mover.id, StateOf(mover), At(now_));
         ASSERT_EQ(outcome, detection::UpdateOutcome::kKept);
-        detectors_.SetHeardUntil(OwnerOf(mover.id), At(now_));
+        detectors_.SetHeardUntil(OwnerOf(mover.id), At(now_), Instant::Always());
       }
       Step();
     }

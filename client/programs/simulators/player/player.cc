@@ -65,14 +65,14 @@ class Part {
     log->Margin(agent_.name, options_.margin_m);
   }
 
-  // The clock has reached `clock_ns`: logs the motion played, and removes the agent after its last
-  // row.
-  void Passed(std::int64_t clock_ns, MotionLog* log) {
+  // The clock has reached `clock_ns`: logs the motion played, and removes the agent if its last row
+  // has been reached. At the end of the run all that are there stay.
+  void Passed(std::int64_t clock_ns, std::int64_t end_ns, MotionLog* log) {
     const auto& pieces = agent_.trajectory.pieces();
     for (; logged_ < pieces.size() && pieces[logged_].t1_ns <= clock_ns; ++logged_) {
       log->Piece(agent_.name, pieces[logged_]);
     }
-    if (agent_.trajectory.end_ns() < clock_ns) handle_.reset();
+    if (agent_.trajectory.end_ns() <= clock_ns && clock_ns < end_ns) handle_.reset();
   }
 
   // The run is over: the current piece ends here.
@@ -208,7 +208,7 @@ void Play(const std::vector<PlayedAgent>& agents, const PlayerOptions& options, 
   for (const auto& [stamp, indices] : due) {
     for (const std::size_t i : indices) parts[i].Stage(stamp, &pace->world(), log);
     if (!pace->AdvanceTo(stamp)) break;
-    for (Part& part : parts) part.Passed(stamp, log);
+    for (Part& part : parts) part.Passed(stamp, pace->end_ns(), log);
   }
   const std::int64_t clock_ns = pace->world().clock_ns();
   for (Part& part : parts) part.Finish(clock_ns, log);

@@ -140,7 +140,7 @@ TEST_F(AnnouncerTest, ClosesWhatIsOpen) {
   const ContactTracker nothing(At(0), Past::kKnown);
   const auto status_of = [&](const ContactEpisode* open, Departure departure) {
     announcer_.Start(At(3));
-    announcer_.Close(pair_, open, departure, &published_);
+    announcer_.Close(pair_, open, departure, At(2.75), &published_);
     EXPECT_FALSE(published_.announced);
     return announcer_.events().back();
   };
@@ -150,15 +150,15 @@ TEST_F(AnnouncerTest, ClosesWhatIsOpen) {
   const ContactTracker doubt = Look({0.5, 1, 0, true, 1});
   const CollisionEvent undecided = status_of(&doubt.episode(), Departure::kRemoved);
   EXPECT_EQ(undecided.status, EventStatus::kUndecided);
-  EXPECT_EQ(undecided.begin, (TimeBracket{At(0.5), At(3)}));
+  EXPECT_EQ(undecided.begin, (TimeBracket{At(0.5), At(2.75)}));
   Report(nothing, Look({0.125, 0.25, 1, true, 1}));
   const CollisionEvent ended = status_of(nullptr, Departure::kRemoved);
   EXPECT_EQ(ended.status, EventStatus::kEnded);
-  EXPECT_EQ(ended.end.latest, At(3));
+  EXPECT_EQ(ended.end.latest, At(2.75));
   Report(nothing, Look({0.125, 0.25, 1, true, 1}));
   EXPECT_TRUE(status_of(nullptr, Departure::kUnwatched).end.latest.is_never());
   announcer_.Start(At(4));
-  announcer_.Close(pair_, nullptr, Departure::kRemoved, &published_);
+  announcer_.Close(pair_, nullptr, Departure::kRemoved, At(4), &published_);
   EXPECT_TRUE(announcer_.events().empty()) << "nothing is open";
 }
 

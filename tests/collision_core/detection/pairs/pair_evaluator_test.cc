@@ -114,6 +114,7 @@ TEST_F(PairEvaluatorTest, APromiseFromBeforeNowIsNotTheCanonicalAnswerOfTheStep)
 TEST_F(PairEvaluatorTest, TheLastEvaluationSettlesWhatWasHeardAndPromisesNothing) {
   EXPECT_EQ(Evaluate(0.5, 0.5, Finality::kLast).free_until(), At(0.5));
   EXPECT_EQ(counters_.pair_queries, 0u);
+  pair_.tracker = ContactTracker(At(0.5), Past::kKnown);
   Evaluate(1.25, 1.25, Finality::kLast);
   EXPECT_EQ(pair_.tracker.at(), At(1.25));
   EXPECT_TRUE(pair_.tracker.in_contact());
