@@ -85,8 +85,10 @@ void AgentTable::SetWaiting(std::uint32_t slot, const WaitingState& waiting, For
   std::vector<WaitingState>& all = slots_[slot].waiting;
   if (!all.empty() && all.back().generation != waiting.generation) all.clear();
   if (!all.empty() && former == Former::kReplaced) all.pop_back();
-  if (all.size() > kWaitingBeforeMax) all.erase(all.begin());
   all.push_back(waiting);
+  if (all.size() <= kWaitingBeforeMax + 1) return;
+  all.erase(all.begin());
+  all.front().state.discontinuity = false;
 }
 
 std::vector<WaitingState> AgentTable::TakeWaiting(std::uint32_t slot) {

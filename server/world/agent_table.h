@@ -85,8 +85,9 @@ struct WaitingState {
   motion::MotionState state;
 };
 
-/// States of one agent that wait with its newest one; beyond, the oldest is dropped: what lies
-/// between two of them is not known then, as if the network had lost it.
+/// States of one agent that wait with its newest one; beyond, the oldest is dropped. What the agent
+/// did up to the next one is not known then: that is no jump any more, so that it breaks what was
+/// declared unless it could follow, and what was met in between is a doubt.
 inline constexpr std::size_t kWaitingBeforeMax = 64;
 
 /// What a state that arrives is, beside those before it.

@@ -98,6 +98,17 @@ TEST_F(RoundsTest, WhatAnAgentDoesBeforeItIsDescribedCounts) {
   EXPECT_EQ(counters().states_accepted, 3u);
 }
 
+// Nobody knows what it met before the oldest of the jumps that are kept.
+TEST_F(RoundsTest, OfMoreJumpsThanCanWaitTheOldestThatIsKeptIsABreach) {
+  Join();
+  for (const std::uint64_t jumps : {kWaitingBeforeMax + 1, kWaitingBeforeMax + 2}) {
+    for (std::uint64_t k = 1; k <= jumps; ++k) {
+      Hear(100 * jumps + k, 100 * static_cast<double>(k), true);
+    }
+    EXPECT_EQ(BreachesOfRound(), jumps > kWaitingBeforeMax + 1 ? 1u : 0u);
+  }
+}
+
 TEST_F(RoundsTest, AnAgentThatLeapsInItsFirstRoundHasBrokenItsWord) {
   BeginRound();
   Describe(0);
