@@ -4,7 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <string_view>
+
+#include "idl/limits.h"
 
 namespace collision::client {
 namespace {
@@ -202,8 +205,8 @@ class Reader {
     if (!(std::fabs(time) < kTimeMax)) Fail("time is beyond a century from 0");
     row.time_ns = std::llround(time);
     for (int axis = 0; axis < 3; ++axis) {
-      row.position_m[axis] = Value(columns_.position[axis], fields);
-      row.velocity_m_s[axis] = Value(columns_.velocity[axis], fields);
+      row.position_m[axis] = Value(columns_.position[axis], wire::kCoordinateMax, "m", fields);
+      row.velocity_m_s[axis] = Value(columns_.velocity[axis], wire::kSpeedMax, "m/s", fields);
     }
     if (columns_.jump) row.jump = Flag(fields[*columns_.jump], "jump");
     auto& rows = result_.rows[agent];
@@ -214,8 +217,17 @@ class Reader {
     rows.push_back(row);
   }
 
-  double Value(const std::optional<Column>& column, const std::vector<std::string>& fields) const {
-    return column ? Finite<double>(fields[column->index], column->name) * column->scale : 0;
+  // In SI units; `most` and `unit` of those. Without the column 0.
+  double Value(const std::optional<Column>& column, double most, const char* unit,
+               const std::vector<std::string>& fields) const {
+    if (!column) return 0;
+    const std::string& field = fields[column->index];
+    const double value = Finite<double>(field, column->name) * column->scale;
+    if (std::fabs(value) <= most) return value;
+    std::ostringstream text;
+    text << column->name << ": " << field.substr(0, 40) << ", allowed: -" << most << " to " << most
+         << ' ' << unit;
+    Fail(text.str());
   }
 
   std::istream& text_;

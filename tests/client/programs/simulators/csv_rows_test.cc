@@ -78,9 +78,12 @@ TEST(CsvRows, ValuesOutOfRangeAreReportedWithTheirLine) {
     return std::string("no error");
   };
   EXPECT_EQ(error("0,a,0,0\n1,a,1,1\n", {}), "no error");
-  EXPECT_EQ(error("0,a,0,0\n1,a,0,2e15\n", {.acceleration_max_m_s2 = 1}).substr(0, 40),
-            "f.csv:2: agent a: velocity_m_s.y: 2e+15,");
-  EXPECT_EQ(error("0,a,2e15,0\n", {}).substr(0, 38), "f.csv:2: agent a: position_m.x: 2e+15,");
+  EXPECT_EQ(error("0,a,0,0\n1,a,0,5e14\n", {.acceleration_max_m_s2 = 1}).substr(0, 40),
+            "f.csv:2: agent a: velocity_m_s.y: 5e+14,");
+  EXPECT_EQ(ErrorOf("time_s,agent_id,x_m,y_m\n0,a,2e15,0\n"),
+            "file.csv:2: x_m: 2e15, allowed: -1e+15 to 1e+15 m");
+  EXPECT_EQ(ErrorOf("time_s,agent_id,x_m,y_m,vx_m_s,vy_m_s\n0,a,0,0,0,-2e9\n"),
+            "file.csv:2: vy_m_s: -2e9, allowed: -1e+09 to 1e+09 m/s");
   EXPECT_EQ(error("0,a,0,0\n0.000000001,a,0.9,0\n0.000000002,a,0,0\n", {}).substr(0, 41),
             "f.csv:2: agent a: acceleration_max_m_s2: ");
 }
