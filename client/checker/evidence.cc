@@ -185,8 +185,8 @@ bool Evidence::Changed(std::size_t a, std::size_t b, std::int64_t from_ns,
   return false;
 }
 
-bool Evidence::MayHaveLeft(const TrueContact& contact, long double at_ns) const {
-  const std::int64_t end = std::min(motions_[contact.a].end_ns(), motions_[contact.b].end_ns());
+bool Evidence::MayHaveLeft(std::size_t a, std::size_t b, long double at_ns) const {
+  const std::int64_t end = std::min(motions_[a].end_ns(), motions_[b].end_ns());
   return at_ns >= end - facts_.leaving_ns;
 }
 

@@ -126,7 +126,10 @@ class Evidence {
 
   /// Whether one of the two may have left by then. Of who has left nothing is promised, a contact
   /// that would begin later is withdrawn, and one in progress is ended.
-  bool MayHaveLeft(const TrueContact& contact, long double at_ns) const;
+  bool MayHaveLeft(const TrueContact& contact, long double at_ns) const {
+    return MayHaveLeft(contact.a, contact.b, at_ns);
+  }
+  bool MayHaveLeft(std::size_t a, std::size_t b, long double at_ns) const;
 
   /// Whether one of the two is more than a ball or a half-space.
   bool HasShape(std::size_t a, std::size_t b) const {

@@ -32,7 +32,10 @@ class Crossing {
     if (complaint.empty() && end.earliest_ns() != kNever) {
       complaint = At(end.earliest_ns(), Side::kInside);
     }
-    if (complaint.empty()) complaint = At(end.latest_ns(), Side::kOutside);
+    // Who has left need not have parted.
+    if (complaint.empty() && !level_.MayHaveLeft(a_, b_, end.latest_ns())) {
+      complaint = At(end.latest_ns(), Side::kOutside);
+    }
     return complaint;
   }
 
