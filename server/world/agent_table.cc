@@ -87,8 +87,10 @@ void AgentTable::SetWaiting(std::uint32_t slot, const WaitingState& waiting, For
   if (!all.empty() && former == Former::kReplaced) all.pop_back();
   all.push_back(waiting);
   if (all.size() <= kWaitingBeforeMax + 1) return;
-  all.erase(all.begin());
-  all.front().state.discontinuity = false;
+  // Of an agent that is not admitted the first state is where it begins.
+  const Agent* agent = Find(slot, waiting.generation);
+  const auto oldest = all.begin() + (agent != nullptr && agent->admitted_ ? 0 : 1);
+  all.erase(oldest)->state.discontinuity = false;
 }
 
 std::vector<WaitingState> AgentTable::TakeWaiting(std::uint32_t slot) {

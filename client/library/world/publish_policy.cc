@@ -114,7 +114,10 @@ void OutgoingStates::MarkSent(std::uint64_t* sequence, std::uint32_t revision) {
 
 void OutgoingStates::Carry(const State& state, std::uint64_t sequence) {
   carried_.push_back({state, sequence});
-  if (carried_.size() > kCarriedMax) carried_.erase(carried_.begin());
+  if (carried_.size() <= kCarriedMax) return;
+  // An agent of which nothing is acknowledged begins with its first state.
+  const auto oldest = carried_.begin() + (acknowledged_ == 0 ? 1 : 0);
+  carried_.erase(oldest)->state.discontinuity = false;
 }
 
 std::optional<std::int64_t> OutgoingStates::JumpOnItsWay(std::int64_t clock_ns) const {

@@ -100,7 +100,13 @@ TEST_F(RoundsTest, WhatAnAgentDoesBeforeItIsDescribedCounts) {
 
 // Nobody knows what it met before the oldest of the jumps that are kept.
 TEST_F(RoundsTest, OfMoreJumpsThanCanWaitTheOldestThatIsKeptIsABreach) {
-  Join();
+  BeginRound();
+  Describe(0);
+  for (std::uint64_t k = 0; k < kWaitingBeforeMax + 2; ++k) {
+    Hear(k + 1, 100 * static_cast<double>(k), k > 0);
+  }
+  EXPECT_EQ(BreachesOfRound(), 1u) << "it begins with its first state";
+  EXPECT_EQ(counters().states_accepted, kWaitingBeforeMax + 1);
   for (const std::uint64_t jumps : {kWaitingBeforeMax + 1, kWaitingBeforeMax + 2}) {
     for (std::uint64_t k = 1; k <= jumps; ++k) {
       Hear(100 * jumps + k, 100 * static_cast<double>(k), true);

@@ -103,7 +103,11 @@ TEST_F(OutgoingStatesTest, OfMoreStatesThanTheBoundTheNewestAreCarried) {
     Stage(jump);
     Send(sequence);
   }
-  EXPECT_EQ(states_.carried().size(), kCarriedMax);
+  ASSERT_EQ(states_.carried().size(), kCarriedMax);
+  EXPECT_EQ(states_.carried()[0].sequence, 1u) << "where it begins";
+  EXPECT_EQ(states_.carried()[1].sequence, 101 - kCarriedMax);
+  EXPECT_FALSE(states_.carried()[1].state.discontinuity) << "what lies before it is not known";
+  EXPECT_TRUE(states_.carried()[2].state.discontinuity);
   EXPECT_EQ(states_.carried().back().sequence, 99u);
 }
 
