@@ -53,8 +53,8 @@ class OutgoingStates {
   std::uint64_t sent_sequence() const { return sent_sequence_; }
 
   /// States before the one sent last that count as well and that the service has not acknowledged,
-  /// oldest first; at most kCarriedMax, beyond which the oldest is forgotten, and the next one is no
-  /// jump any more: what lies between is a breach, of which nobody may say what it met.
+  /// oldest first; at most kCarriedMax, beyond which the oldest is forgotten. The next one is no
+  /// jump any more then: what lies between is a breach, of which nobody may say what it met.
   struct Carried {
     State state;
     std::uint64_t sequence = 0;
