@@ -78,6 +78,14 @@ void ReportChanges(const Scene& scene, Outcome* outcome) {
   }
 }
 
+/// In lock-step, as on a perfect network; what changed is counted while all are still there.
+void FlyChanging(const Fleet& fleet, Outcome* outcome) {
+  const auto report = [&](Scene* scene) {
+    scene->When(fleet.end_ns - kSecond, [scene, outcome] { ReportChanges(*scene, outcome); });
+  };
+  FlyAsPerfect(fleet, report, outcome);
+}
+
 void ChangesInLockStep(const Setting& setting, Outcome* outcome) {
   for (int i = 0; i < setting.Many(6, 100); ++i) {
     const auto seed = static_cast<std::uint64_t>(i + 1);
@@ -86,12 +94,7 @@ void ChangesInLockStep(const Setting& setting, Outcome* outcome) {
     fleet.flights = [](int count, std::int64_t end_ns, Random* random) {
       return Changing(count, end_ns, kSecond / 2, random);
     };
-    FlyAsPerfect(
-        fleet,
-        [&](Scene* scene) {
-          scene->When(fleet.end_ns - kSecond, [scene, outcome] { ReportChanges(*scene, outcome); });
-        },
-        outcome);
+    FlyChanging(fleet, outcome);
   }
   ExpectContacts(4, outcome);
   outcome->Expect(outcome->Get("lowered") > 0, "no promise was ever lowered");
@@ -124,12 +127,7 @@ void ShortLivesInLockStep(const Setting& setting, Outcome* outcome) {
     const auto seed = static_cast<std::uint64_t>(i + 1);
     Fleet fleet{.network = Faulty(seed), .seed = seed, .flights = ShortLived};
     fleet.config.mutable_clock()->set_grant_ahead_max_s(2);
-    FlyAsPerfect(
-        fleet,
-        [&](Scene* scene) {
-          scene->When(fleet.end_ns - kSecond, [scene, outcome] { ReportChanges(*scene, outcome); });
-        },
-        outcome);
+    FlyChanging(fleet, outcome);
   }
   ExpectContacts(4, outcome);
   outcome->Expect(outcome->Get("removed") >= 20 * outcome->Get("runs"), "hardly any agent left");
