@@ -360,9 +360,8 @@ void AgentRegistry::Remove(Simulator* simulator, std::uint32_t slot, std::uint64
   const Agent* agent = simulator->agents().Find(slot);
   const bool late = sequence != 0 && sequence < DescriptionSequence(*simulator, slot);
   if (late) return;
-  // In a round what it did may still be on its way, once its simulator has told a clock.
-  const bool in_round =
-      world_.started() && world_.RunsInRounds() && simulator->time().newest() != Instant::Always();
+  // In a round what it did may still be on its way, as the clock of its simulator may.
+  const bool in_round = world_.started() && world_.RunsInRounds();
   if (agent == nullptr || !(agent->admitted() || in_round)) return RemoveNow(simulator, slot);
   told_[simulator->id()][slot].removed = true;
 }

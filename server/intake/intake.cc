@@ -410,7 +410,18 @@ void Intake::EndBatch() {
 }
 
 void Intake::TakeClocks() {
-  for (auto& [id, simulator] : world_.simulators()) simulator.time().Take();
+  for (auto& [id, simulator] : world_.simulators()) {
+    if (HasLeftUnheard(simulator)) {
+      for (const bool finishes : {false, true}) world_.Join(&simulator, finishes);
+    }
+    simulator.time().Take();
+  }
+}
+
+bool Intake::HasLeftUnheard(const Simulator& simulator) const {
+  const bool awaits_clock = !simulator.alive() && simulator.time().newest() == Instant::Always();
+  return world_.simulated() && world_.started() && awaits_clock && simulator.agents().size() > 0 &&
+         agents_.AllLeave(simulator);
 }
 
 std::vector<std::string> Intake::AwaitedShapes() const {

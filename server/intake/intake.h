@@ -138,6 +138,9 @@ class Intake {
   void TakeShapePart(const v1::Input& input);
   void TakeShapeRemoval(const v1::Input& input);
 
+  /// It has taken its agents with it before a clock of it has arrived: what it did while it was
+  /// there counts, and no step of it follows.
+  bool HasLeftUnheard(const Simulator& simulator) const;
   void Enact(Simulator* simulator);
 
   const std::uint64_t instance_;

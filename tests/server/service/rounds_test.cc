@@ -213,5 +213,40 @@ TEST(Rounds, WithoutNextStepsTimeFollowsTheClocks) {
   EXPECT_EQ(daemon.status().now_ns(), 7 * kMillisecond);
 }
 
+// Goal:   what an agent does counts also where all of its simulator but the clock arrives at once.
+// Method: a newcomer whose agent stands in another one and leaves in good order; its clock arrives
+//         after that, or never, in each order in which the rest may.
+TEST(Rounds, WhoIsGoneBeforeItsClockArrivesHasBeenThere) {
+  const auto contacts_with = [](const std::vector<v1::Input>& after_the_states) {
+    ScriptedDaemon daemon(ConfigFor(1));
+    Mover alpha("alpha", 1, 1, 50 * kMillisecond);
+    daemon.Step(alpha.Begin());
+    daemon.Step({alpha.NewestClock()});
+    daemon.Step({From(2, Description("beta", 0))});
+    v1::AgentState there = State(0, 0, 1);
+    there.mutable_position_m()->set_x(-5);
+    daemon.Step({From(2, there, "beta")});
+    for (const v1::Input& input : after_the_states) daemon.Step({input});
+    for (int step = 0; step < 40; ++step) {
+      std::vector<v1::Input> told = alpha.Advance(daemon.clearance(alpha.id()).granted_until_ns());
+      if (!told.empty()) told.push_back(alpha.NewestClock());
+      daemon.Step(told);
+    }
+    EXPECT_TRUE(alpha.finished()) << "nobody waits for the other one";
+    EXPECT_EQ(daemon.status().agents(), 1u);
+    const std::vector<v1::Output>& outputs = daemon.bus().outputs;
+    return std::ranges::count_if(outputs, [](const v1::Output& output) {
+      return output.collision_event().contacts_sequence() > 0;
+    });
+  };
+  v1::SimulatorClock clock = ClockAfter("beta", 100 * kMillisecond, 1, 1);
+  clock.set_next_ns(kNeverNs);
+  const v1::Input removal = Removal(2, "beta", 0);
+  const v1::Input dead = Liveliness(2, "beta", false);
+  EXPECT_GT(contacts_with({removal, From(2, clock), dead}), 0);
+  EXPECT_GT(contacts_with({removal, dead}), 0);
+  EXPECT_GT(contacts_with({dead, removal}), 0);
+}
+
 }  // namespace
 }  // namespace collision::server
