@@ -1,4 +1,4 @@
-#include "client/api/environment.h"
+#include "collision/environment.h"
 
 #include <charconv>
 #include <cstdlib>

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "client/api/event_text.h"
+#include "collision/event_text.h"
 
 namespace collision::client {
 namespace {

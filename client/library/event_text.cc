@@ -1,4 +1,4 @@
-#include "client/api/event_text.h"
+#include "collision/event_text.h"
 
 #include <algorithm>
 #include <cmath>

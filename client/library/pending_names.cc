@@ -1,4 +1,4 @@
-#include "client/api/pending_names.h"
+#include "collision/pending_names.h"
 
 namespace collision::client {
 

@@ -1,4 +1,4 @@
-#include "client/api/types.h"
+#include "collision/types.h"
 
 namespace collision::client {
 

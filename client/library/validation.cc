@@ -8,8 +8,9 @@
 #include <span>
 #include <stdexcept>
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 #include "collision_core/shape/fixed_half_space.h"
+#include "idl/control_character.h"
 
 namespace collision::client {
 namespace {
@@ -93,10 +94,7 @@ void CheckText(const char* field, const std::string& text, std::size_t least, st
     Refuse(field, "\"" + text + "\"",
            std::to_string(least) + " to " + std::to_string(most) + " bytes");
   }
-  const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  if (std::any_of(text.begin(), text.end(), control)) {
-    Refuse(field, "a control character", "printable characters");
-  }
+  if (wire::FindControl(text)) Refuse(field, "a control character", "printable characters");
 }
 
 void CheckTags(const std::vector<Tag>& tags) {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string>
 
-#include "client/api/types.h"
-#include "client/api/world.h"
+#include "collision/types.h"
+#include "collision/world.h"
 #include "idl/limits.h"
 
 namespace collision::client {

@@ -1,4 +1,4 @@
-#include "client/api/mesh_file.h"
+#include "client/mesh/mesh_file.h"
 
 #include <algorithm>
 #include <cmath>

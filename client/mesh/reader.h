@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "client/api/types.h"
 #include "client/mesh/scan.h"
+#include "collision/types.h"
 
 namespace collision::client {
 

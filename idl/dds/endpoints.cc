@@ -139,6 +139,10 @@ Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
     std::vector<TopicId> left_out;
     if (!p.read_earliest) left_out.push_back(TopicId::kEarliestIntersection);
     if (!p.read_screening) left_out.push_back(TopicId::kScreening);
+    for (const TopicRow& row : Topics()) {
+      const bool is_status = row.id == TopicId::kServiceStatus || row.id == TopicId::kServiceHello;
+      if (p.read_status_alone && !is_status) left_out.push_back(row.id);
+    }
     builder.Read(Source::kService, *p.read_of_service, listener, nullptr, left_out);
   }
   if (p.read_of_other_services) {

@@ -15,8 +15,9 @@ namespace collision::dds {
 /// Which sides of the topics a program reads and writes, and in which partition; none: not at all.
 struct Partitions {
   std::optional<std::string> read_of_simulators, read_of_service;
-  bool read_earliest = false;   ///< Of the service: it is computed for its readers only.
-  bool read_screening = false;  ///< Of the service: what only the owners of agents are told.
+  bool read_status_alone = false;  ///< Of the service, and its hello.
+  bool read_earliest = false;      ///< Of the service: it is computed for its readers only.
+  bool read_screening = false;     ///< Of the service: what only the owners of agents are told.
   std::optional<std::string> read_of_other_services;  ///< Their status.
   bool read_events_of_other_services = false;         ///< And what they publish of contacts.
   std::optional<std::string> write_as_simulator, write_as_service;

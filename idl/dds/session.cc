@@ -56,6 +56,7 @@ dds::Partitions PartitionsOf(const DdsSessionOptions& options) {
     partitions.read_of_simulators = options.world + ".*";
   if (simulator || as_operator || (monitor && options.reads_service))
     partitions.read_of_service = options.world;
+  partitions.read_status_alone = monitor && options.reads_status_alone;
   partitions.read_earliest = monitor;
   partitions.read_screening = simulator;
   if (simulator) partitions.write_as_simulator = options.world + "." + options.simulator;

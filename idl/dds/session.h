@@ -32,7 +32,8 @@ struct DdsSessionOptions {
       true;  ///< kMonitor: status, events, earliest intersection, clearances, rejections.
   /// kService: reads the contacts and forecasts of other services, too.
   bool reads_events_of_services = false;
-  bool reads_simulators = false;  ///< kMonitor: descriptions, shapes, states and clocks.
+  bool reads_status_alone = false;  ///< kMonitor: of the service hello and status alone.
+  bool reads_simulators = false;    ///< kMonitor: descriptions, shapes, states and clocks.
 
   /// A clock or a status whose writer the network has not heard of for so long counts as gone.
   /// Under 50 ms a busy machine gives false alarms.

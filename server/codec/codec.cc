@@ -25,7 +25,7 @@ Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 std::optional<Refusal> CheckName(std::uint64_t id, const std::string& name, Refusal where) {
   FieldCheck check(std::move(where));
-  check.Text("simulator_name", name, wire::kNameMax);
+  CheckSimulatorName(name, &check);
   if (id != SimulatorId(name)) {
     check.Refuse(v1::REJECTED_ID_MISMATCH, "simulator_id",
                  std::to_string(id) + "; the name \"" + name.substr(0, wire::kNameMax) + "\" has " +

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "idl/control_character.h"
+#include "idl/limits.h"
+
 namespace collision::server {
 
 std::string Show(double value) {
@@ -39,9 +42,22 @@ void FieldCheck::Vector(const char* field, const v1::Vector3& value, double grea
 }
 
 void FieldCheck::Text(const char* field, const std::string& value, std::size_t bytes_max) {
-  if (value.size() <= bytes_max) return;
-  Refuse(v1::REJECTED_OUT_OF_RANGE, field,
-         std::to_string(value.size()) + " bytes; allowed: 0 to " + std::to_string(bytes_max));
+  if (value.size() > bytes_max) {
+    Refuse(v1::REJECTED_OUT_OF_RANGE, field,
+           std::to_string(value.size()) + " bytes; allowed: 0 to " + std::to_string(bytes_max));
+  }
+  if (const auto place = wire::FindControl(value)) {
+    Refuse(v1::REJECTED_OUT_OF_RANGE, field,
+           "a control character, as byte " + std::to_string(*place) +
+               "; allowed: printable characters");
+  }
+}
+
+void CheckSimulatorName(const std::string& name, FieldCheck* check) {
+  check->Text("simulator_name", name, wire::kNameMax);
+  if (wire::IsName(name)) return;
+  check->Refuse(v1::REJECTED_OUT_OF_RANGE, "simulator_name",
+                "\"" + name + "\"; allowed: " + wire::kNameText);
 }
 
 void FieldCheck::Refuse(v1::RejectionReason reason, const char* field, std::string detail) {

@@ -25,7 +25,8 @@ class FieldCheck {
   /// Every component finite and at most `greatest` in magnitude.
   void Vector(const char* field, const v1::Vector3& value, double greatest);
 
-  /// At most `bytes_max` bytes of UTF-8.
+  /// At most `bytes_max` bytes of UTF-8, without control characters: texts reach logs and
+  /// terminals.
   void Text(const char* field, const std::string& value, std::size_t bytes_max);
 
   void Refuse(v1::RejectionReason reason, const char* field, std::string detail);
@@ -37,6 +38,9 @@ class FieldCheck {
   Refusal where_;
   std::optional<Refusal> refusal_;
 };
+
+/// The name of a simulator: part of a DDS partition, and of lines of logs.
+void CheckSimulatorName(const std::string& name, FieldCheck* check);
 
 /// A number as refusals show it.
 std::string Show(double value);

@@ -6,6 +6,7 @@
 #include "idl/hello_extensions.h"
 #include "idl/identity.h"
 #include "idl/limits.h"
+#include "server/codec/field_check.h"
 
 namespace collision::server {
 namespace {
@@ -85,6 +86,10 @@ std::optional<Refusal> CheckHello(const v1::SimulatorHello& hello,
                                        "; allowed: " + std::to_string(service.wire_revision()) +
                                        ", that of the service: use one version for both");
   }
+  FieldCheck check(refusal);
+  CheckSimulatorName(hello.simulator_name(), &check);
+  check.Text("frame", hello.frame(), wire::kNameMax);
+  if (!check.passed()) return check.refusal();
   if (hello.simulator_id() != SimulatorId(hello.simulator_name())) {
     refusal.reason = v1::REJECTED_ID_MISMATCH;
     return refuse("simulator_id", std::to_string(hello.simulator_id()) + "; its name has " +

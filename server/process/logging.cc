@@ -1,15 +1,40 @@
 #include "server/process/logging.h"
 
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <mutex>
 
 namespace collision::server {
 namespace {
 
 constexpr const char* kOther = "other matters";
+
+/// The priority of syslog that fits a level, in the form that the journal takes: "<6>".
+class JournalPriority final : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& line, const std::tm&,
+              spdlog::memory_buf_t& text) override {
+    constexpr std::string_view kPriorities[] = {"<7>", "<7>", "<6>", "<4>", "<3>", "<2>", "<2>"};
+    const std::string_view priority = kPriorities[line.level];
+    text.append(priority.data(), priority.data() + priority.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<JournalPriority>();
+  }
+};
+
+std::unique_ptr<spdlog::pattern_formatter> FormatFor(bool journal) {
+  auto format = std::make_unique<spdlog::pattern_formatter>();
+  format->add_flag<JournalPriority>('P').set_pattern(journal ? "%P%v"
+                                                             : "%Y-%m-%dT%H:%M:%S.%f%z %^%l%$ %v");
+  return format;
+}
 
 /// The process has one log, as it has one default logger.
 struct ProcessLog {
@@ -26,6 +51,13 @@ ProcessLog& TheLog() {
 
 }  // namespace
 
+bool ErrorsGoToTheJournal() {
+  const char* stream = std::getenv("JOURNAL_STREAM");
+  struct stat errors {};
+  if (stream == nullptr || fstat(STDERR_FILENO, &errors) != 0) return false;
+  return stream == fmt::format("{}:{}", errors.st_dev, errors.st_ino);
+}
+
 void StartLogging(const std::string& level, const std::string& file) {
   auto logger = file.empty() ? std::make_shared<spdlog::logger>(
                                    "", std::make_shared<spdlog::sinks::stderr_color_sink_mt>())
@@ -33,7 +65,7 @@ void StartLogging(const std::string& level, const std::string& file) {
                                    "", std::make_shared<spdlog::sinks::basic_file_sink_mt>(file));
   logger->set_level(spdlog::level::from_str(level));
   logger->flush_on(spdlog::level::trace);
-  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%f%z %^%l%$ %v");
+  logger->set_formatter(FormatFor(file.empty() && ErrorsGoToTheJournal()));
   spdlog::set_default_logger(std::move(logger));
 }
 

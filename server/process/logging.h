@@ -12,7 +12,11 @@
 
 namespace collision::server {
 
+/// Whether standard error is the journal's, as JOURNAL_STREAM says. Source: systemd.exec(5).
+bool ErrorsGoToTheJournal();
+
 /// Sends spdlog's default logger to standard error, or to `file` (appending) if it is not empty.
+/// The journal gets priorities in place of a time and a level, which it has.
 /// `level`: trace, debug, info, warn, error, critical or off. Throws spdlog::spdlog_ex if the file
 /// cannot be opened.
 void StartLogging(const std::string& level, const std::string& file);

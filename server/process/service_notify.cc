@@ -40,6 +40,11 @@ void ServiceNotifier::Alive(Time now) {
   Send("WATCHDOG=1");
 }
 
+void ServiceNotifier::Tell(std::string_view line, Time now) {
+  told_ = now;
+  Send("STATUS=" + std::string(line));
+}
+
 void ServiceNotifier::Send(std::string_view message) {
   if (socket_ < 0) return;
   sockaddr_un address{};

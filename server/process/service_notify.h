@@ -23,6 +23,15 @@ class ServiceNotifier {
 
   void Ready() { Send("READY=1"); }
   void Stopping() { Send("STOPPING=1"); }
+  void Reloading() { Send("RELOADING=1"); }
+
+  /// Whether a line for people is due: somebody listens, and the last one is 2 s old.
+  bool WantsStatus(Time now) const {
+    return socket_ >= 0 && now - told_ >= std::chrono::seconds(2);
+  }
+
+  /// One line for people, without a newline: what `systemctl status` shows.
+  void Tell(std::string_view line, Time now);
 
   /// Feeds the watchdog, if there is one, twice per period. Call it at every step.
   void Alive(Time now);
@@ -34,6 +43,7 @@ class ServiceNotifier {
   std::string address_;  ///< A path, or a NUL and a name in the abstract namespace.
   std::chrono::microseconds watchdog_period_{0};
   Time fed_{};
+  Time told_{};
 };
 
 }  // namespace collision::server

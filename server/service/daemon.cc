@@ -21,6 +21,7 @@
 #include "server/publish/publisher.h"
 #include "server/publish/reports.h"
 #include "server/publish/status.h"
+#include "server/publish/text/state_lines.h"
 #include "server/recording/step_recorder.h"
 #include "server/service/detection_step.h"
 #include "server/service/operator_commands.h"
@@ -76,6 +77,25 @@ class Daemon::Implementation {
   void Stop() {
     stopped_ = true;
     bus_.Wake();
+  }
+
+  std::string StatusLine() const {
+    switch (claim_.phase()) {
+      case ClaimPhase::kServing:
+        return server::StatusLine(world_, detectors_.agents(), Earliest());
+      case ClaimPhase::kStandby:
+        return "stands by; " + server::StatusLine(world_, detectors_.agents(), Earliest());
+      case ClaimPhase::kClaiming:
+        return "claims the world";
+      case ClaimPhase::kWaking:
+      case ClaimPhase::kYielded:
+        return "another service has the world";
+    }
+    return "";
+  }
+
+  std::vector<std::string> StateLines() {
+    return server::StateLines(StatusNow(), world_, kStateAgentsMax);
   }
 
   const std::string& state_failure() const { return journal_.failure(); }
@@ -308,31 +328,34 @@ class Daemon::Implementation {
   /// Publishes the rest of what a step has found; the events have left before its grants.
   void PublishAnswers() {
     if (publisher_.EarliestIsDue(world_)) {
-      publisher_.PublishEarliest(detection_.has_detected()
-                                     ? detectors_.contacts().Earliest(kEarliestQueriesMax)
-                                     : detection::EarliestAnswer(),
-                                 world_);
+      publisher_.PublishEarliest(Earliest(), world_);
     }
     publisher_.PublishClearances(&world_);
     if (world_.AcknowledgeRevisions()) publisher_.PublishClearances(&world_);
     publisher_.PublishReports(reports_.TakeDue(world_));
   }
 
-  void SendStatus() {
+  detection::EarliestAnswer Earliest() const {
+    return detection_.has_detected() ? detectors_.contacts().Earliest(kEarliestQueriesMax)
+                                     : detection::EarliestAnswer();
+  }
+
+  void SendStatus() { publisher_.PublishStatus(StatusNow()); }
+
+  v1::ServiceStatus StatusNow() {
     const std::uint64_t queries = detectors_.counted().queries;
-    publisher_.PublishStatus(
-        MakeStatus({.config = config_,
-                    .world = world_,
-                    .detectors = detectors_,
-                    .intake = intake_,
-                    .shapes = shapes_,
-                    .rejections = rejections_,
-                    .publisher = publisher_,
-                    .bus = bus_,
-                    .steps = steps_,
-                    .queries_per_second = query_rate_.Take(queries, world_.monotonic_ns()),
-                    .configuration = services_.configuration(),
-                    .extensions = Extensions()}));
+    return MakeStatus({.config = config_,
+                       .world = world_,
+                       .detectors = detectors_,
+                       .intake = intake_,
+                       .shapes = shapes_,
+                       .rejections = rejections_,
+                       .publisher = publisher_,
+                       .bus = bus_,
+                       .steps = steps_,
+                       .queries_per_second = query_rate_.Take(queries, world_.monotonic_ns()),
+                       .configuration = services_.configuration(),
+                       .extensions = Extensions()});
   }
 
   std::vector<v1::KeyValue> Extensions() {
@@ -389,6 +412,10 @@ const std::string& Daemon::state_failure() const { return implementation_->state
 bool Daemon::Step() { return implementation_->Step(); }
 
 void Daemon::Stop() { implementation_->Stop(); }
+
+std::string Daemon::StatusLine() const { return implementation_->StatusLine(); }
+
+std::vector<std::string> Daemon::StateLines() const { return implementation_->StateLines(); }
 
 const ServiceClaim& Daemon::claim() const { return implementation_->claim(); }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "idl/config.pb.h"
 #include "server/bus/bus.h"
@@ -17,6 +18,8 @@
 namespace collision::server {
 
 class BatchSink;
+
+inline constexpr std::size_t kStateAgentsMax = 1000;
 
 /// What a daemon may have beside bus and clock.
 struct DaemonParts {
@@ -65,6 +68,13 @@ class Daemon {
 
   /// Why nothing is kept for the next start, although that is wanted; empty: it is.
   const std::string& state_failure() const;
+
+  /// What it does, in one line for people: "serves world "lab": 3 simulators, 112 agents, next
+  /// contact not before 4.1 s".
+  std::string StatusLine() const;
+
+  /// All that it knows, for the log: its status as JSON, then agents, at most kStateAgentsMax.
+  std::vector<std::string> StateLines() const;
 
   /// Its claim to the world.
   const ServiceClaim& claim() const;

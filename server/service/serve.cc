@@ -18,9 +18,10 @@
 #include "server/process/logging.h"
 #include "server/process/process_text.h"
 #include "server/process/service_notify.h"
-#include "server/process/stop_signals.h"
+#include "server/process/signals.h"
 #include "server/process/version.h"
 #include "server/service/daemon.h"
+#include "server/service/requests/signal_requests.h"
 #include "server/service/wait_for_clock.h"
 #include "server/shapes/threaded_shape_builder.h"
 #include "server/world/world.h"
@@ -57,7 +58,7 @@ std::string NetworkProfile() {
 }
 
 /// As the configuration asks for; says how it ended.
-void WaitForWallClock(const v1::Config& config, const StopSignalWatcher& signals,
+void WaitForWallClock(const v1::Config& config, const SignalWatcher& signals,
                       ServiceNotifier* service_manager) {
   const std::chrono::nanoseconds longest(
       ToNanoseconds(config.clock().wait_for_synchronisation_s()));
@@ -135,9 +136,23 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
          service_manager.Alive(now);
          return status.IsDue(now);
        }});
-  const StopSignalWatcher signals(
-      [&daemon] { daemon.Stop(); }, kStepPatience,
-      [recorder, quarantine = parts.quarantine] { EndInTheStep(recorder, quarantine); });
+  SignalRequests requests(
+      Reloader(config, std::move(parts.load_config)), [&daemon] { return daemon.StateLines(); },
+      &service_manager);
+  const SignalWatcher signals(
+      {.stop = [&daemon] { daemon.Stop(); },
+       .patience = kStepPatience,
+       .give_up = [recorder, quarantine = parts.quarantine] { EndInTheStep(recorder, quarantine); },
+       .reload =
+           [&](pid_t asker) {
+             requests.AskToReload(asker);
+             bus.Wake();
+           },
+       .dump =
+           [&] {
+             requests.AskToDump();
+             bus.Wake();
+           }});
   LogStart(config, parts.claim, has_journal);
   WaitForWallClock(config, signals, &service_manager);
   bool ready = false;
@@ -146,8 +161,10 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
       service_manager.Ready();
       ready = true;
     }
+    requests.Fulfil();
     const auto now = std::chrono::steady_clock::now();
     service_manager.Alive(now);
+    if (service_manager.WantsStatus(now)) service_manager.Tell(daemon.StatusLine(), now);
     status.StepIsOver(now);
   }
   const bool yields = daemon.claim().phase() == ClaimPhase::kYielded;

@@ -11,6 +11,7 @@
 #include "server/claim/journal.h"
 #include "server/claim/quarantine.h"
 #include "server/claim/service_claim.h"
+#include "server/config/config.h"
 #include "server/recording/recording.h"
 #include "server/service/exit_code.h"
 #include "server/shapes/tree_store.h"
@@ -30,6 +31,8 @@ struct ServiceParts {
   JournalParts journal = {};
   Quarantine* quarantine = nullptr;
   ClaimOptions claim = {};
+  /// Reads the configuration again, as the start did; null: there is no file.
+  std::function<ConfigResult()> load_config = nullptr;
 };
 
 /// Runs the daemon until SIGTERM or SIGINT, the end of the bus, a batch that cannot be recorded, a

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "client/api/world.h"
 #include "client/library/network/transport.h"
+#include "collision/world.h"
 #include "idl/identity.h"
 
 namespace collision::client {

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "client/api/shape.h"
 #include "client/library/network/conversion.h"
 #include "client/library/network/revision_filter.h"
+#include "collision/shape.h"
 #include "collision_core/detection/pairs/pair_table.h"
 
 namespace collision::faults {

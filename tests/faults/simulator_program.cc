@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 #include "idl/identity.h"
 
 namespace collision::faults {

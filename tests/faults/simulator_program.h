@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "client/api/world.h"
+#include "collision/world.h"
 #include "tests/faults/service_program.h"
 #include "tests/simulation/motion.h"
 

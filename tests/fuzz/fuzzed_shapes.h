@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 #include "collision_core/shape/shape.h"
 #include "tests/fuzz/fuzzed_data.h"
 

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "client/api/mesh_file.h"
+#include "client/mesh/mesh_file.h"
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "server/shapes/shape_builder.h"
 #include "tests/fuzz/scratch_file.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 #include "collision_core/narrow_phase/separation/separation.h"
 #include "collision_core/sphere_tree/tree_check.h"
 #include "idl/shape_bytes.h"

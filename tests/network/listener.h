@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "client/api/monitor.h"
 #include "client/checker/evidence.h"
+#include "collision/monitor.h"
 
 namespace collision::network {
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "client/api/shape.h"
-#include "client/api/world.h"
+#include "collision/shape.h"
+#include "collision/world.h"
 #include "idl/dds/session.h"
 #include "idl/identity.h"
 #include "idl/shape_bytes.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "client/api/monitor.h"
+#include "collision/monitor.h"
 #include "tests/bench/harness/measure.h"
 #include "tests/soak/cases.h"
 #include "tests/soak/honest.h"

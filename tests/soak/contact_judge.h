@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "client/api/types.h"
+#include "collision/types.h"
 #include "tests/soak/plan.h"
 #include "tests/support/suite/case.h"
 

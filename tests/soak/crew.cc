@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "client/api/shape.h"
-#include "client/api/world.h"
+#include "collision/shape.h"
+#include "collision/world.h"
 #include "tests/soak/plan.h"
 
 namespace collision::soak {

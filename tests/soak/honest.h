@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "client/api/shape.h"
-#include "client/api/world.h"
+#include "collision/shape.h"
+#include "collision/world.h"
 #include "tests/support/suite/case.h"
 
 namespace collision::soak {

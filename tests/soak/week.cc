@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "client/api/monitor.h"
+#include "collision/monitor.h"
 #include "tests/soak/cases.h"
 #include "tests/soak/contact_judge.h"
 #include "tests/soak/process_use.h"

@@ -9,7 +9,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// Files under `folder` may include ours only from `ours`. The first folder that fits counts.
+/// Files under `folder` may include ours only from `ours`. The first folder that fits counts. What
+/// users of the client library include lies in client/include/collision and is named collision/.
 struct Layer {
   std::string folder;
   Names ours;
@@ -25,10 +26,10 @@ Names CoreRooms(const std::string& rooms) {
 
 /// A file that none of these fits is refused.
 const std::vector<Layer>& Layers() {
-  static const std::string core = "collision_core/", api = "client/api/",
+  static const std::string core = "collision_core/", api = "collision/",
                            library = "client/library/", checker = "client/checker/",
                            programs = "client/programs/";
-  static const std::string validation = library + "validation.h";
+  static const std::string validation = library + "validation.h", mesh = "client/mesh/mesh_file.h";
   static const std::vector<Layer> layers = {
       // The rooms of the core, each behind those that it may stand on.
       {core + "base/", CoreRooms("base")},
@@ -46,6 +47,8 @@ const std::vector<Layer>& Layers() {
       {core + "detection/",
        CoreRooms("base numeric shape motion intersection broad_phase narrow_phase detection")},
       // A tree at rest is made of the core's own data; daemon and tools write the same.
+      // A program of the build, which needs nothing of ours.
+      {"idl/plain/", {"idl/plain/"}},
       {"idl/tree_message", {"idl/", core + "sphere_tree/", core + "shape/"}},
       {"idl/", {"idl/"}},
       // The rooms of the server, each behind those that it stands on; main sees only the program.
@@ -74,10 +77,11 @@ const std::vector<Layer>& Layers() {
       {"server/service/", {core, "idl/", "server/"}},
       {"server/main.cc", {"server/service/"}},
       // What users of the client library include: nothing of the network.
-      {api, {api}},
+      {"client/include/collision/", {api}},
       // So that client and service judge motions, meshes, solids and half-spaces alike.
       {library + "validation.cc",
-       {"idl/limits.h", api, validation, core + "shape/fixed_half_space.h"}},
+       {"idl/control_character.h", "idl/limits.h", api, validation,
+        core + "shape/fixed_half_space.h"}},
       {library + "world/contract.cc",
        {api, library + "vector.h", library + "world/contract.h",
         core + "motion/contract_between.h"}},
@@ -85,6 +89,8 @@ const std::vector<Layer>& Layers() {
       {library + "shape/shape.cc", {"idl/shape_bytes.h", api, validation, library + "shape/"}},
       {library + "shape/solid_check.cc",
        {api, validation, library + "shape/", core + "shape/convex_solid.h"}},
+      // The interface in C, on that in C++.
+      {"client/c/", {api, library + "identity/library_version.h", validation, "client/c/"}},
       {"client/mesh/mesh_file.cc",
        {api, validation, "client/mesh/", core + "geometry/mesh/triangle_mesh.h"}},
       {"client/mesh/", {api, validation, "client/mesh/"}},
@@ -97,14 +103,14 @@ const std::vector<Layer>& Layers() {
        {"idl/", api, validation, library + "deadline.h", library + "identity/",
         library + "network/", library + "notices/", library + "world/"}},
       {library, {"idl/limits.h", api, validation}},
-      {"client/example/", {api}},
+      {"client/examples/", {api}},
       // The checker shares nothing with what it checks but the messages.
       {checker + "shape/", {checker + "shape/"}},
       {checker + "motion/", {checker + "shape/", checker + "motion/"}},
       {checker, {"idl/", checker}},
       // Shows what the service would build, so it builds it.
       {programs + "tools/sphere_tree/",
-       {"idl/", api, library + "shape/core_mesh.h", programs + "shared/", programs + "tools/",
+       {"idl/", api, library + "shape/core_mesh.h", mesh, programs + "shared/", programs + "tools/",
         core + "geometry/mesh/", core + "sphere_tree/", core + "shape/"}},
       // Derives bounds from rows and states as the player does.
       {programs + "tools/suggest_bounds/",
@@ -115,15 +121,15 @@ const std::vector<Layer>& Layers() {
        {"idl/", api, library, programs + "shared/", programs + "tools/", core + "broad_phase/",
         core + "intersection/"}},
       {programs + "tools/",
-       {"idl/", api, library, checker, programs + "shared/", programs + "tools/"}},
-      {programs + "shared/", {"idl/", api, library, programs + "shared/"}},
+       {"idl/", api, library, mesh, checker, programs + "shared/", programs + "tools/"}},
+      {programs + "shared/", {"idl/", api, library, mesh, programs + "shared/"}},
       {programs + "simulators/motion/",
        {api, library, programs + "shared/", programs + "simulators/motion/"}},
       {programs + "simulators/",
        {"idl/", api, library, programs + "shared/", programs + "simulators/"}},
       {programs + "scene_runner/",
        {"idl/", api, library, checker, programs + "shared/", programs + "scene_runner/"}},
-      {"tests/", {core, "idl/", "server/", "client/", "tests/"}},
+      {"tests/", {core, "idl/", "server/", api, "client/", "tests/"}},
   };
   return layers;
 }
@@ -178,7 +184,9 @@ bool IsForWide(const std::string& name) {
          std::find(standard.begin(), standard.end(), name) != standard.end();
 }
 
-bool IsPublicClientHeader(const std::string& path) { return StartsWith(path, "client/api/"); }
+bool IsPublicClientHeader(const std::string& path) {
+  return StartsWith(path, "client/include/collision/");
+}
 
 /// Null: the file belongs to no layer.
 const Layer* LayerOf(const std::string& path) {
@@ -208,7 +216,9 @@ std::string Complaint(const std::string& path, const Include& include) {
       return "the core has nothing but Eigen and the standard library, without files, threads and "
              "clocks";
     }
-    if (IsPublicClientHeader(path) && !IsStandard(include.name)) {
+    // Of C, too.
+    const bool is_of_c = include.name == "stddef.h" || include.name == "stdint.h";
+    if (IsPublicClientHeader(path) && !IsStandard(include.name) && !is_of_c) {
       return "users of the client see nothing but the standard library";
     }
     return "";

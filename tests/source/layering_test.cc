@@ -40,7 +40,7 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
       {"idl/dds/a.h", "\"collision_core/base/instant.h\""},
       {"server/service/daemon.cc", "<dds/dds.h>"},
       {"server/service/daemon.cc", "\"collision.h\""},
-      {"server/service/daemon.cc", "\"client/api/world.h\""},
+      {"server/service/daemon.cc", "\"collision/world.h\""},
       {"server/process/logging.cc", "\"server/config/config.h\""},
       {"server/config/config.cc", "\"server/recording/recording.h\""},
       {"server/codec/codec.cc", "\"server/shapes/shape_store.h\""},
@@ -50,16 +50,16 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
       {"server/publish/publisher.cc", "\"server/service/daemon.h\""},
       {"server/main.cc", "\"server/bus/dds_bus.h\""},
       {"server/daemon.cc", "\"server/bus/bus.h\""},
-      {"client/api/world.h", "<google/protobuf/message.h>"},
-      {"client/api/world.h", "\"idl/messages.pb.h\""},
-      {"client/api/world.h", "\"client/library/network/transport.h\""},
-      {"client/example/ten_lines.cc", "\"client/library/deadline.h\""},
+      {"client/include/collision/world.h", "<google/protobuf/message.h>"},
+      {"client/include/collision/world.h", "\"idl/messages.pb.h\""},
+      {"client/include/collision/world.h", "\"client/library/network/transport.h\""},
+      {"client/examples/cpp/ten_lines.cc", "\"client/library/deadline.h\""},
       {"client/library/world/world.cc", "  \"server/clock.h\""},
       {"client/library/world/world.cc", "<dds/dds.h>"},
       {"client/library/world/world.cc", "\"client/programs/shared/pace.h\""},
       {"client/library/network/conversion.cc", "\"client/library/world/contract.h\""},
       {"client/library/shape/shape.cc", "\"collision_core/base/instant.h\""},
-      {"client/checker/check.h", "\"client/api/types.h\""},
+      {"client/checker/check.h", "\"collision/types.h\""},
       {"client/checker/shape/mesh.h", "\"client/checker/motion/motion.h\""},
       {"client/programs/simulators/terrain/terrain.h", "\"client/checker/check.h\""},
       {"client/programs/tools/motion_checker_main.cc", "\"collision_core/base/instant.h\""},
@@ -69,7 +69,7 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
        "\"collision_core/shape/shape.h\""},
       {"idl/tree_message.cc", "\"collision_core/base/instant.h\""},
       {"idl/shape_bytes.cc", "\"collision_core/shape/shape.h\""},
-      {"elsewhere/a.h", "\"client/api/types.h\""},
+      {"elsewhere/a.h", "\"collision/types.h\""},
   };
   for (const Planted& planted : bad) {
     const auto violations = ViolationsOf(planted);
@@ -103,7 +103,7 @@ TEST(Layering, GoodIncludesAreLeftAlone) {
       {"client/library/world/world.cc", "\"client/library/network/transport.h\""},
       {"client/programs/tools/sphere_tree/report.h", "\"collision_core/shape/shape.h\""},
       {"idl/tree_message.h", "\"collision_core/sphere_tree/sphere_tree.h\""},
-      {"client/api/world.h", "\"client/api/types.h\""},
+      {"client/include/collision/world.h", "\"collision/types.h\""},
   };
   for (const Planted& planted : good) EXPECT_EQ(ViolationsOf(planted), std::vector<std::string>{});
 }
@@ -136,7 +136,9 @@ std::map<std::string, std::string> IncludedBy(const std::string& path) {
     unread.pop_back();
     for (const Include& include : Includes(ReadFile(header))) {
       const bool is_new = includers.try_emplace(include.name, header).second;
-      if (is_new && include.quoted) unread.push_back(include.name);
+      if (!is_new || !include.quoted) continue;
+      const bool is_public = include.name.rfind("collision/", 0) == 0;
+      unread.push_back((is_public ? "client/include/" : "") + include.name);
     }
   }
   return includers;
@@ -146,11 +148,12 @@ std::map<std::string, std::string> IncludedBy(const std::string& path) {
 TEST(Layering, PublicClientHeadersLeadToNothingButTheStandardLibrary) {
   int headers = 0;
   for (const SourceFile& file : SourceFiles({".h"})) {
-    if (file.path.rfind("client/api/", 0) != 0) continue;
+    if (file.path.rfind("client/include/collision/", 0) != 0) continue;
     ++headers;
     for (const auto& [name, includer] : IncludedBy(file.path)) {
-      const bool is_standard = name.find_first_of("/.") == std::string::npos;
-      EXPECT_TRUE(is_standard || name.rfind("client/api/", 0) == 0)
+      const bool is_of_c = name == "stddef.h" || name == "stdint.h";
+      const bool is_standard = is_of_c || name.find_first_of("/.") == std::string::npos;
+      EXPECT_TRUE(is_standard || name.rfind("collision/", 0) == 0)
           << file.path << " leads to " << name << " through " << includer;
     }
   }

@@ -1,5 +1,5 @@
 // Goal:   what the README shows is what is there.
-// Method: its simulator is compiled as client/example; the two texts must agree line by line.
+// Method: its simulator is compiled as client/examples; the two texts must agree line by line.
 #include <gtest/gtest.h>
 
 #include "tests/source/source_tree.h"
@@ -7,7 +7,7 @@
 namespace collision::source {
 namespace {
 
-constexpr const char* kExample = "client/example/ten_lines.cc";
+constexpr const char* kExample = "client/examples/cpp/ten_lines.cc";
 
 /// The first block of `language` after the first mention of `mark`.
 std::string CodeBlockAfter(const std::string& text, const std::string& mark,

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "client/api/world.h"
+#include "collision/world.h"
 #include "idl/dds/session.h"
 
 namespace collision::system_test {

@@ -1,6 +1,7 @@
 // Goal:   collisionctl shows a live world as it is, and says so when there is none.
 // Method: two simulators fly head-on and stay at the end; everything it can be asked is known.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include "tests/system/test_world.h"
 
@@ -33,6 +34,15 @@ TEST(Monitor, ShowsALiveWorld) {
   EXPECT_TRUE(world.MonitorComesToSay({"earliest", "--json"}, "earliest_ns"));
   EXPECT_TRUE(
       world.MonitorComesToSay({"suggest-bounds", "--live", "--seconds", "0.5"}, "left-sim/left "));
+  const Outcome health = world.Monitor({"health", "--require-simulators", "2"});
+  EXPECT_EQ(health.status, 0) << health.out << health.err;
+  EXPECT_TRUE(Contains(health.out, "WELL")) << health.out;
+  EXPECT_EQ(world.Monitor({"health", "--require-simulators", "3"}).status, 2);
+  // It stands still: what is kept for those who come late is no sign of life.
+  daemon->Signal(SIGSTOP);
+  const Outcome still = world.Monitor({"health", "--max-age", "2"});
+  EXPECT_EQ(still.status, 2) << still.out;
+  daemon->Signal(SIGCONT);
   for (const char* word : {"status", "agents", "events", "earliest"}) {
     const Outcome text = world.Monitor({word});
     EXPECT_EQ(text.status, 0) << word << text.err;
@@ -45,6 +55,9 @@ TEST(Monitor, SaysWhenThereIsNoService) {
   const Outcome outcome = world.Monitor({"status", "--timeout", "0.2"});
   EXPECT_EQ(outcome.status, 69);
   EXPECT_NE(outcome.err, "");
+  const Outcome health = world.Monitor({"health", "--max-age", "0.2"});
+  EXPECT_EQ(health.status, 2);
+  EXPECT_TRUE(Contains(health.out, "CRITICAL: no service is heard in world")) << health.out;
   EXPECT_EQ(world.Monitor({"suggest-bounds", "--live", "--timeout", "0.2"}).status, 69);
 }
 

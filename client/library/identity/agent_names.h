@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "client/api/types.h"
+#include "collision/types.h"
 #include "collision_core/base/recent_map.h"
 #include "idl/identity.h"
 #include "idl/messages.pb.h"

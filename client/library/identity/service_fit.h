@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "client/api/types.h"
+#include "collision/types.h"
 #include "idl/messages.pb.h"
 
 namespace collision::client {

@@ -1,6 +1,6 @@
 #include "client/library/network/conversion.h"
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 
 namespace collision::client {
 namespace {
@@ -20,7 +20,8 @@ TimeBracket BracketOf(const v1::TimeBracket& bracket) {
   return {bracket.earliest_ns(), bracket.latest_ns()};
 }
 
-std::vector<Tag> TagsOf(const google::protobuf::RepeatedPtrField<v1::Tag>& message) {
+template <class Tags>
+std::vector<Tag> TagsOf(const Tags& message) {
   std::vector<Tag> tags;
   for (const v1::Tag& tag : message) tags.push_back({tag.key(), tag.value()});
   return tags;

@@ -1,8 +1,8 @@
-// Conversion between the plain values of client/api and the messages of idl/messages.proto.
+// Conversion between the plain values of client/include and the messages of idl/messages.proto.
 #pragma once
 
-#include "client/api/monitor.h"
-#include "client/api/types.h"
+#include "collision/monitor.h"
+#include "collision/types.h"
 #include "idl/messages.pb.h"
 
 namespace collision::client {

@@ -91,6 +91,12 @@ std::unique_ptr<Transport> ConnectWatcher(const std::string& world, std::uint32_
   return std::make_unique<DdsTransport>(Options(DdsRole::kWatcher, world, domain));
 }
 
+std::unique_ptr<Receiver> ConnectStatusReader(const std::string& world, std::uint32_t domain) {
+  DdsSessionOptions session = Options(DdsRole::kMonitor, world, domain);
+  session.reads_status_alone = true;
+  return std::make_unique<DdsTransport>(session);
+}
+
 std::unique_ptr<Receiver> ConnectMonitor(const MonitorOptions& options) {
   DdsSessionOptions session = Options(DdsRole::kMonitor, options.world, options.domain);
   session.reads_service = options.service;

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "client/api/monitor.h"
 #include "client/library/network/transport.h"
+#include "collision/monitor.h"
 
 namespace collision::client {
 
@@ -20,6 +20,10 @@ std::unique_ptr<Transport> ConnectOperator(const std::string& world, std::uint32
 
 /// Writes what is watched, reads nothing. Throws as above.
 std::unique_ptr<Transport> ConnectWatcher(const std::string& world, std::uint32_t domain);
+
+/// Reads the service's hello and status, and nothing else: little for the network, and no work for
+/// the service. Throws as above.
+std::unique_ptr<Receiver> ConnectStatusReader(const std::string& world, std::uint32_t domain);
 
 /// Creates readers only, of the topics that the options select. Throws as above.
 std::unique_ptr<Receiver> ConnectMonitor(const MonitorOptions& options);

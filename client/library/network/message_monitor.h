@@ -9,11 +9,11 @@
 #include <set>
 #include <string>
 
-#include "client/api/monitor.h"
 #include "client/library/network/contact_sequence.h"
 #include "client/library/network/current_service.h"
 #include "client/library/network/revision_filter.h"
 #include "client/library/network/transport.h"
+#include "collision/monitor.h"
 #include "idl/messages.pb.h"
 
 namespace collision::client {

@@ -1,4 +1,4 @@
-#include "client/api/monitor.h"
+#include "collision/monitor.h"
 
 #include <utility>
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "client/api/event_text.h"
+#include "collision/event_text.h"
 
 namespace collision::client {
 namespace {

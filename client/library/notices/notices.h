@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "client/api/notice.h"
-#include "client/api/types.h"
+#include "collision/notice.h"
+#include "collision/types.h"
 
 namespace collision::client {
 

@@ -1,7 +1,7 @@
 // A mesh of the caller as the core has it.
 #pragma once
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 
 namespace collision::client {

@@ -1,4 +1,4 @@
-#include "client/api/shape.h"
+#include "collision/shape.h"
 
 #include <algorithm>
 #include <cstring>

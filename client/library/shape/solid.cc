@@ -1,4 +1,4 @@
-#include "client/api/solid.h"
+#include "collision/solid.h"
 
 #include <utility>
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "client/api/solid.h"
+#include "collision/solid.h"
 #include "idl/shape_bytes.h"
 
 namespace collision::client {

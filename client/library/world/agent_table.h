@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "client/api/types.h"
 #include "client/library/world/contract.h"
 #include "client/library/world/publish_policy.h"
 #include "client/library/world/watches.h"
+#include "collision/types.h"
 #include "idl/messages.pb.h"
 
 namespace collision::client {

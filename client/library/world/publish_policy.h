@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "client/api/types.h"
 #include "client/library/world/contract.h"
+#include "collision/types.h"
 #include "idl/limits.h"
 
 namespace collision::client {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 #include "idl/messages.pb.h"
 
 namespace collision::client {

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "client/api/types.h"
+#include "collision/types.h"
 #include "idl/messages.pb.h"
 
 namespace collision::client {

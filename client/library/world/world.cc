@@ -1,4 +1,4 @@
-#include "client/api/world.h"
+#include "collision/world.h"
 
 #include <exception>
 #include <stdexcept>

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "client/api/world.h"
 #include "client/library/deadline.h"
 #include "client/library/identity/agent_names.h"
 #include "client/library/identity/region_least.h"
@@ -27,6 +26,7 @@
 #include "client/library/world/shape_publisher.h"
 #include "client/library/world/waiting_list.h"
 #include "client/library/world/watches.h"
+#include "collision/world.h"
 
 namespace collision::client {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "client/api/event_text.h"
 #include "client/library/network/conversion.h"
+#include "collision/event_text.h"
 
 namespace collision::client {
 namespace {

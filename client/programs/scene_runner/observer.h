@@ -10,9 +10,9 @@
 #include <tuple>
 #include <vector>
 
-#include "client/api/pending_names.h"
 #include "client/checker/evidence.h"
 #include "client/library/network/message_monitor.h"
+#include "collision/pending_names.h"
 
 namespace collision::client {
 

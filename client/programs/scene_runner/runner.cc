@@ -13,9 +13,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "client/api/event_text.h"
 #include "client/programs/shared/stop_signal.h"
 #include "client/programs/shared/terminal.h"
+#include "collision/event_text.h"
 
 namespace collision::client {
 namespace {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "client/library/identity/library_version.h"
 #include "idl/limits.h"
 
 namespace collision::client {
@@ -122,7 +123,13 @@ int RunProgram(const char* program, const std::function<int()>& run) {
   }
 }
 
+void AddVersion(CLI::App* app) {
+  app->set_version_flag("--version", app->get_name() + " " + LibraryVersion(),
+                        "Print the version and end");
+}
+
 std::optional<int> ParseCommandLine(CLI::App* app, int argc, char** argv) {
+  AddVersion(app);
   try {
     app->parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -68,8 +68,11 @@ inline constexpr double kRunSecondsMax = 1e8;
 /// RefusedError kExitRefused, BadInput kExitBadData, any other kExitUnavailable.
 int RunProgram(const char* program, const std::function<int()>& run);
 
-/// Parses the command line. Returns the exit code if the program ends here (0 after --help, 2 for a
-/// wrong option), else nullopt.
+/// Adds --version.
+void AddVersion(CLI::App* app);
+
+/// Parses the command line, with --version. Returns the exit code if the program ends here (0 after
+/// --help, 2 for a wrong option), else nullopt.
 std::optional<int> ParseCommandLine(CLI::App* app, int argc, char** argv);
 
 }  // namespace collision::client

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "client/api/mesh_file.h"
+#include "client/mesh/mesh_file.h"
 
 namespace collision::client {
 

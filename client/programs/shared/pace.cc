@@ -7,11 +7,11 @@
 #include <limits>
 #include <stdexcept>
 
-#include "client/api/event_text.h"
 #include "client/library/notices/notices.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/grant_patience.h"
 #include "client/programs/shared/stop_signal.h"
+#include "collision/event_text.h"
 #include "idl/scene.pb.h"
 
 namespace collision::client {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "client/api/world.h"
+#include "collision/world.h"
 
 namespace collision::client {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "client/api/solid.h"
+#include "collision/solid.h"
 #include "idl/solids.pb.h"
 
 namespace collision::client {

@@ -14,6 +14,7 @@
 #include "client/programs/tools/collisionctl/agents_watcher.h"
 #include "client/programs/tools/collisionctl/events/event_printer.h"
 #include "client/programs/tools/collisionctl/examples.h"
+#include "client/programs/tools/collisionctl/health.h"
 #include "client/programs/tools/collisionctl/json/status_json.h"
 #include "client/programs/tools/collisionctl/json/world_json.h"
 #include "client/programs/tools/collisionctl/operator_request.h"
@@ -328,6 +329,34 @@ void AddExamples(CLI::App* app) {
   }
 }
 
+CLI::App* AddHealth(CLI::App* app, HealthOptions* health) {
+  CLI::App* command = app->add_subcommand(
+      "health", "For probes: one sentence, and 0 (well), 1 (trouble) or 2 (critical)");
+  command
+      ->add_option("--max-age", health->max_age_s,
+                   "Seconds within which a new status must come, 0.1 to 60")
+      ->check(Between(0.1, 60))
+      ->capture_default_str();
+  command
+      ->add_option("--require-simulators", health->simulators_required,
+                   "How many simulators must be alive, 0 to 1024")
+      ->check(WholeBetween(0, 1024))
+      ->capture_default_str();
+  return command;
+}
+
+int CheckHealth(const Options& options, HealthOptions health) {
+  health.world = options.monitor.world;
+  health.domain = options.monitor.domain;
+  health.json = options.json;
+  try {
+    return RunHealth(health);
+  } catch (const std::runtime_error& error) {
+    std::cout << "CRITICAL: " << error.what() << '\n';
+    return static_cast<int>(HealthLevel::kCritical);
+  }
+}
+
 int Operate(const Options& options, const v1::OperatorCommand& command) {
   const MonitorOptions& place = options.monitor;
   try {
@@ -352,7 +381,10 @@ int Main(int argc, char** argv) {
   const CLI::App* sphere_tree = AddSphereTreeCommand(&app, &tree);
   SuggestBoundsOptions bounds;
   const CLI::App* suggest_bounds = AddSuggestBoundsCommand(&app, &bounds);
+  HealthOptions health;
+  const CLI::App* health_command = AddHealth(&app, &health);
   AddExamples(&app);
+  AddVersion(&app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RequiredError& error) {
@@ -363,6 +395,7 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kExitOk : kExitUsage;
   }
+  if (health_command->parsed()) return CheckHealth(options, health);
   if (sphere_tree->parsed()) {
     if (options.json) tree.report = "json";
     return RunSphereTree(tree);

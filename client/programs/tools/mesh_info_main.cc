@@ -3,7 +3,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "client/api/mesh_file.h"
+#include "client/mesh/mesh_file.h"
+#include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/mesh_option.h"
 
@@ -40,11 +41,7 @@ int Main(int argc, char** argv) {
   app.add_option("file", file, "OBJ, STL, PLY, glTF or GLB")->required();
   AddRequiredMeshFrameOptions(&app, &options);
   app.footer(kFooter);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitOk : kExitUsage;
-  }
+  if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   try {
     MeshFileReport report;
     const auto shape = LoadShape(file, options, &report);

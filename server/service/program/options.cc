@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 
 #include "server/config/config.h"
@@ -25,9 +26,13 @@ Examples:
   collisiond --print-config > F                 write all defaults, explained
   collisiond --calibrate                        how fast the narrow phase is on this machine
   collisiond --domain 7 --log-level debug       override two settings
+  collisiond --reload 1234                      let process 1234 read its configuration anew
   COLLISION_WORLD=lab collisiond                the same for all programs of a shell
   collisiond --record run.rec                   serve, and keep every input
   collisiond --replay run.rec > events.jsonl    repeat that run without a network
+
+Signals: SIGTERM, SIGINT end it after the step; SIGHUP does what --reload does; SIGUSR1 writes what
+it knows to the log.
 
 Exit codes:
    0  ended as asked (SIGTERM, SIGINT), or the command is done
@@ -74,6 +79,11 @@ void Define(CLI::App* app, Options* options) {
   auto* calibrate = app->add_flag(
       "--calibrate", options->calibrate,
       "Measure work_units_per_us on this machine, print the line for the configuration, and end");
+  auto* reload = app->add_option("--reload", options->reload,
+                                 "Let the service of this process read its configuration anew, and "
+                                 "open its log file anew; end when it has, with 78 if it refuses")
+                     ->type_name("PID")
+                     ->check(CLI::Range(2, std::numeric_limits<std::int32_t>::max(), "PID"));
   app->set_version_flag("--version", std::string("collisiond ") + Version(),
                         "Print the version and end");
   auto* world =
@@ -100,6 +110,8 @@ void Define(CLI::App* app, Options* options) {
   for (auto* other : {check, print}) record->excludes(other);
   for (auto* other : {config, check, print, world, domain, record, replay})
     calibrate->excludes(other);
+  for (auto* other : {config, check, print, world, domain, record, replay, calibrate})
+    reload->excludes(other);
 }
 
 /// A variable that is set and not empty, if the configuration allows it as this field.
@@ -114,7 +126,7 @@ std::optional<std::string> Variable(const char* name, const char* field) {
 
 /// The same for the programs of simulators and monitors, so that one setting is for all.
 void TakeEnvironment(Options* options) {
-  if (options->calibrate || !options->replay_file.empty()) return;
+  if (options->calibrate || options->reload || !options->replay_file.empty()) return;
   if (!options->world) options->world = Variable("COLLISION_WORLD", "world");
   const auto domain = options->domain ? std::nullopt : Variable("COLLISION_DOMAIN", "domain");
   if (domain) options->domain = static_cast<std::uint32_t>(std::stoul(*domain));

@@ -14,6 +14,7 @@ struct Options {
   bool check_config = false;
   bool print_config = false;
   bool calibrate = false;
+  std::optional<std::int32_t> reload;  ///< The process of a service that is to reload.
   /// These go before the configuration's; from the environment if the command line is silent.
   std::optional<std::string> world;
   std::optional<std::uint32_t> domain;

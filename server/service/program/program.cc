@@ -20,7 +20,7 @@
 #include "server/config/config.h"
 #include "server/config/config_options.h"
 #include "server/process/logging.h"
-#include "server/process/stop_signals.h"
+#include "server/process/signals.h"
 #include "server/recording/recording.h"
 #include "server/recording/replay.h"
 #include "server/service/daemon.h"
@@ -144,8 +144,19 @@ ClaimOptions ClaimOf(const v1::Config& config, const Journal* journal, bool open
   return claim;
 }
 
+/// The configuration, with what the command line says in its place.
+ConfigResult Load(const Options& options) {
+  ConfigResult loaded =
+      options.config_file.empty() ? ParseConfig("", "") : LoadConfig(options.config_file);
+  if (!loaded.ok()) return loaded;
+  if (options.world) loaded.config.set_world(*options.world);
+  if (options.domain) loaded.config.set_domain(*options.domain);
+  if (options.log_level) loaded.config.set_log_level(*options.log_level);
+  return loaded;
+}
+
 /// `again`: it has left the world to another service, and is to stand by for that one.
-std::optional<int> ServeOnce(const v1::Config& config, const std::string& record_file, bool again) {
+std::optional<int> ServeOnce(const v1::Config& config, const Options& options, bool again) {
   std::shared_ptr<TreeCache> cache;
   try {
     cache = MakeTreeCache(config);
@@ -176,9 +187,9 @@ std::optional<int> ServeOnce(const v1::Config& config, const std::string& record
   const ClaimOptions claim = ClaimOf(config, journal.get(), opens_later, again);
   std::unique_ptr<RecordingWriter> recorder;
   try {
-    if (!record_file.empty()) {
-      KeepFormerRecordings(record_file);
-      recorder = std::make_unique<RecordingWriter>(record_file, config, claim);
+    if (!options.record_file.empty()) {
+      KeepFormerRecordings(options.record_file);
+      recorder = std::make_unique<RecordingWriter>(options.record_file, config, claim);
     }
   } catch (const std::runtime_error& error) {
     return Fail(kExitFile, error.what());
@@ -198,14 +209,38 @@ std::optional<int> ServeOnce(const v1::Config& config, const std::string& record
                             .open = std::move(open_journal),
                             .failure = std::move(state_failure)},
                 .quarantine = quarantine.get(),
-                .claim = claim});
+                .claim = claim,
+                .load_config = [options] {
+                  ConfigResult loaded = Load(options);
+                  TakeFoldersOfSystemd(&loaded.config);
+                  return loaded;
+                }});
 }
 
-int Serve(const v1::Config& config, const std::string& record_file) {
+int Serve(const v1::Config& config, const Options& options) {
   PrepareSignals();
   for (bool again = false;; again = true) {
-    if (const std::optional<int> code = ServeOnce(config, record_file, again)) return *code;
+    if (const std::optional<int> code = ServeOnce(config, options, again)) return *code;
   }
+}
+
+/// Longer than a step may take (WatchdogSec= in the unit).
+constexpr std::chrono::seconds kReloadPatience{60};
+
+int ReloadOther(std::int32_t service) {
+  const std::string process = "process " + std::to_string(service);
+  switch (AskToReload(service, kReloadPatience)) {
+    case ReloadAnswer::kDone:
+      return kExitOk;
+    case ReloadAnswer::kRefused:
+      return Fail(kExitConfiguration,
+                  process + " keeps its configuration, for the reason that its log says");
+    case ReloadAnswer::kNoProcess:
+      return Fail(kExitUnavailable, process + " is not there, or belongs to another user");
+    case ReloadAnswer::kNoAnswer:
+      return Fail(kExitUnavailable, process + " has not answered within 60 s");
+  }
+  return kExitSoftware;
 }
 
 /// An event as it is: of a hypothetical agent the message to its owner, which holds one.
@@ -264,13 +299,10 @@ int Run(const Options& options) {
   if (!options.replay_file.empty()) {
     return Replay(options.replay_file, options.log_level.value_or("info"));
   }
-  ConfigResult loaded =
-      options.config_file.empty() ? ParseConfig("", "") : LoadConfig(options.config_file);
+  if (options.reload) return ReloadOther(*options.reload);
+  ConfigResult loaded = Load(options);
   for (const std::string& error : loaded.errors) std::cerr << error << '\n';
   if (!loaded.ok()) return kExitConfiguration;
-  if (options.world) loaded.config.set_world(*options.world);
-  if (options.domain) loaded.config.set_domain(*options.domain);
-  if (options.log_level) loaded.config.set_log_level(*options.log_level);
   if (options.print_config) std::cout << PrintConfig(loaded.config);
   if (options.check_config) std::cout << options.config_file << ": ok\n";
   if (options.print_config || options.check_config) return kExitOk;
@@ -280,7 +312,7 @@ int Run(const Options& options) {
     return Fail(kExitFile, std::string("log_file: ") + error.what());
   }
   TakeFoldersOfSystemd(&loaded.config);
-  return Serve(loaded.config, options.record_file);
+  return Serve(loaded.config, options);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "client/api/shape.h"
-#include "client/api/world.h"
+#include "collision/shape.h"
+#include "collision/world.h"
 #include "tests/support/random.h"
 
 namespace collision::bench {

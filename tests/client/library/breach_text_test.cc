@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "client/api/event_text.h"
+#include "collision/event_text.h"
 #include "tests/support/random.h"
 
 namespace collision::client {

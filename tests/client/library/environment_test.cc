@@ -1,6 +1,6 @@
 // Goal:   a program that names no world joins that of its shell.
 // Method: the two variables set, empty, unset, and with values that are no domain.
-#include "client/api/environment.h"
+#include "collision/environment.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "client/api/monitor.h"
-#include "client/api/world.h"
+#include "collision/monitor.h"
+#include "collision/world.h"
 
 namespace collision::client {
 namespace {

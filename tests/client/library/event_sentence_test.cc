@@ -3,7 +3,7 @@
 // Method: whole sentences are compared.
 #include <gtest/gtest.h>
 
-#include "client/api/event_text.h"
+#include "collision/event_text.h"
 
 namespace collision::client {
 namespace {

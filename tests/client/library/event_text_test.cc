@@ -1,6 +1,6 @@
 // Goal:   a line contains what the event contains, rounded outward, in columns.
 // Method: whole lines are compared; instants at the ends of their range.
-#include "client/api/event_text.h"
+#include "collision/event_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Goal:   an event waits for both names, at most a second, and the order of events stays.
 // Method: the test controls names and wall clock.
-#include "client/api/pending_names.h"
+#include "collision/pending_names.h"
 
 #include <gtest/gtest.h>
 

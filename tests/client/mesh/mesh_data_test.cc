@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "client/api/mesh_file.h"
+#include "client/mesh/mesh_file.h"
 
 namespace collision::client {
 namespace {

@@ -2,7 +2,7 @@
 //         a damaged, truncated or empty file is refused with its name and the cause, never read in
 //         part.
 // Method: one cube written in every format, then damaged, and truncated everywhere.
-#include "client/api/mesh_file.h"
+#include "client/mesh/mesh_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "client/api/world.h"
 #include "client/library/network/transport.h"
+#include "collision/world.h"
 #include "idl/identity.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 #include "tests/client/service/in_process_service.h"
 
 namespace collision::client {

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "client/api/world.h"
 #include "client/library/network/transport.h"
+#include "collision/world.h"
 #include "idl/identity.h"
 #include "idl/service_heard.h"
 #include "tests/server/messages.h"

@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "client/api/event_text.h"
+#include "collision/event_text.h"
 #include "tests/client/service/in_process_service.h"
 
 namespace collision::client {

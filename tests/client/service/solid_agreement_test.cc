@@ -7,8 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "client/api/shape.h"
 #include "client/library/validation.h"
+#include "collision/shape.h"
 #include "idl/limits.h"
 #include "idl/shape_bytes.h"
 #include "server/shapes/shape_builder.h"

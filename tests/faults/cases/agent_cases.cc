@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 #include "tests/faults/cases/cases.h"
 #include "tests/faults/cases/fleet.h"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "collision_core/shape/fixed_half_space.h"
+#include "idl/control_character.h"
 #include "idl/limits.h"
 #include "idl/shape_bytes.h"
 #include "tests/server/shapes/shapes.h"
@@ -267,6 +268,17 @@ TEST(Codec, RefusesBadDescriptionsByField) {
       {"time_step_s", far, [](D* d) { d->set_time_step_s(-1e-3); }},
       {"slot", far, [](D* d) { d->set_slot(wire::kSlotMax + 1); }},
       {"agent_name", far, [](D* d) { d->set_agent_name(std::string(65, 'x')); }},
+      {"agent_name", far, [](D* d) { d->set_agent_name("ada\x1b[2J"); }},
+      {"assembly", far, [](D* d) { d->set_assembly("two\nlines"); }},
+      {"class_name", far, [](D* d) { d->set_class_name("a\x7f"); }},
+      {"tags.value", far,
+       [](D* d) {
+         v1::Tag* tag = d->add_tags();
+         tag->set_key("kind");
+         tag->set_value(
+             "\xc2\x9b"
+             "2J");
+       }},
       {"margin_m", far, [](D* d) { d->set_margin_m(-1e-9); }},
       {"margin_m", far, [](D* d) { d->set_margin_m(1e-7); }},
       {"margin_m", odd, [](D* d) { d->set_margin_m(kNaN); }},
@@ -304,6 +316,22 @@ TEST(Codec, RefusesBadDescriptionsByField) {
     ASSERT_NE(refusal, nullptr) << bad.field;
     EXPECT_EQ(refusal->reason, bad.reason) << bad.field;
     EXPECT_EQ(refusal->field, bad.field);
+    EXPECT_FALSE(wire::FindControl(refusal->detail)) << "it stands in a log";
+  }
+}
+
+// A partition and a line of a log have it.
+TEST(Codec, TheNameOfASimulatorIsAWord) {
+  for (const std::string& name : {std::string("a.b"), std::string("a b"), std::string("*"),
+                                  std::string("a\x1b[2J"), std::string(), std::string(65, 'x')}) {
+    const auto of_agent = CheckIdentity(Description(name, 1));
+    const auto of_clock = CheckIdentity(ClockOf(name, 0));
+    for (const auto& refusal : {of_agent, of_clock}) {
+      ASSERT_TRUE(refusal) << name;
+      EXPECT_EQ(refusal->reason, v1::REJECTED_OUT_OF_RANGE);
+      EXPECT_EQ(refusal->field, "simulator_name");
+      EXPECT_FALSE(wire::FindControl(refusal->detail)) << "it stands in a log";
+    }
   }
 }
 

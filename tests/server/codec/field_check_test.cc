@@ -83,6 +83,20 @@ TEST(FieldCheck, TextCountsBytes) {
   EXPECT_EQ(check.refusal()->detail, "3 bytes; allowed: 0 to 2");
 }
 
+TEST(FieldCheck, TextsHaveNoControlCharacters) {
+  for (const std::string& text : {std::string("a\tb"), std::string("a\0b", 3), std::string("a\x7f"),
+                                  std::string("a\xc2\x80"), std::string("a\xc2\x9f")}) {
+    FieldCheck check({});
+    check.Text("name", text, 64);
+    ASSERT_FALSE(check.passed());
+    EXPECT_EQ(check.refusal()->detail,
+              "a control character, as byte 1; allowed: printable characters");
+  }
+  FieldCheck check({});
+  check.Text("name", "\xc2\xa0\xc3\xa4 \xe2\x82\xac ~", 64);  // from U+00A0 on
+  EXPECT_TRUE(check.passed());
+}
+
 TEST(FieldCheck, TheFirstFaultStaysAndKeepsItsPlace) {
   FieldCheck check({.topic = v1::TOPIC_SHAPE, .simulator_id = 7, .run = 3, .slot = 9});
   check.Integer("first", 2, 0, 1);

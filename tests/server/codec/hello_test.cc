@@ -101,6 +101,13 @@ TEST(Hello, WhatDoesNotFitIsRefusedByField) {
   };
   using H = v1::SimulatorHello;
   EXPECT_FALSE(refusal([](H*) {}));
+  const auto name = refusal([](H* h) { h->set_simulator_name("a\x1b[2J"); });
+  ASSERT_TRUE(name);
+  EXPECT_EQ(name->field, "simulator_name");
+  const auto frame = refusal([](H* h) { h->set_frame("two\nlines"); });
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->field, "frame");
+  EXPECT_EQ(frame->reason, v1::REJECTED_OUT_OF_RANGE);
   const auto revision = refusal([](H* h) { h->set_wire_revision(1); });
   ASSERT_TRUE(revision);
   EXPECT_EQ(revision->reason, v1::REJECTED_MISMATCH);

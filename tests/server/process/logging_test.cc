@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -93,6 +96,34 @@ TEST(Logging, WritesToTheFileFromTheLevelOn) {
   EXPECT_EQ(text.str().find("unheard"), std::string::npos);
   std::remove(path.c_str());
   EXPECT_THROW(StartLogging("info", "/dev/null/log"), spdlog::spdlog_ex);
+}
+
+// Goal:   the journal gets priorities, and no times, which it has.
+// Method: standard error is a file, and JOURNAL_STREAM names it; then another one.
+TEST(Logging, WritesPrioritiesToTheJournal) {
+  const std::string path = testing::TempDir() + "logging_test.journal";
+  const int before = dup(STDERR_FILENO);
+  ASSERT_NE(std::freopen(path.c_str(), "w", stderr), nullptr);
+  struct stat errors {};
+  fstat(STDERR_FILENO, &errors);
+  const std::string stream = fmt::format("{}:{}", errors.st_dev, errors.st_ino);
+  setenv("JOURNAL_STREAM", stream.c_str(), 1);
+  StartLogging("debug", "");
+  spdlog::debug("of no concern");
+  spdlog::error("it fails");
+  setenv("JOURNAL_STREAM", "0:0", 1);
+  StartLogging("info", "");
+  spdlog::info("not the journal");
+  unsetenv("JOURNAL_STREAM");
+  std::fflush(stderr);
+  dup2(before, STDERR_FILENO);
+  close(before);
+  StartLogging("info", "");
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  EXPECT_TRUE(text.str().starts_with("<7>of no concern\n<3>it fails\n2")) << text.str();
+  EXPECT_TRUE(text.str().ends_with("info not the journal\n")) << text.str();
+  std::remove(path.c_str());
 }
 
 }  // namespace

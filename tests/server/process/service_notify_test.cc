@@ -57,6 +57,14 @@ TEST(ServiceNotifier, TellsTheManager) {
   for (const std::string& address : {SomePath(), "@collision." + std::to_string(getpid())}) {
     Manager manager(address);
     ServiceNotifier notifier;
+    const Time now = Time{} + std::chrono::hours(1);
+    EXPECT_TRUE(notifier.WantsStatus(now));
+    notifier.Tell("3 simulators", now);
+    EXPECT_EQ(manager.Next(), "STATUS=3 simulators");
+    EXPECT_FALSE(notifier.WantsStatus(now + std::chrono::seconds(1)));
+    EXPECT_TRUE(notifier.WantsStatus(now + std::chrono::seconds(2)));
+    notifier.Reloading();
+    EXPECT_EQ(manager.Next(), "RELOADING=1");
     notifier.Ready();
     EXPECT_EQ(manager.Next(), "READY=1");
     notifier.Stopping();

@@ -144,7 +144,7 @@ TEST(Status, CountsTheSimulatorsItCannotList) {
     if (i == 65) {
       EXPECT_EQ(daemon.counter("simulators_unlisted"), 0u);
     }
-    daemon.Step({From(i, Description("simulator " + std::to_string(i), 0))});
+    daemon.Step({From(i, Description("simulator-" + std::to_string(i), 0))});
   }
   EXPECT_EQ(daemon.status().simulators_size(), 64);
   EXPECT_EQ(daemon.counter("simulators_unlisted"), 3u);

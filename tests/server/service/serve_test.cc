@@ -17,7 +17,7 @@
 #include "collision_core/base/check.h"
 #include "server/config/config.h"
 #include "server/process/logging.h"
-#include "server/process/stop_signals.h"
+#include "server/process/signals.h"
 #include "tests/server/messages.h"
 #include "tests/server/shapes/failing_tree_store.h"
 #include "tests/server/shapes/shapes.h"

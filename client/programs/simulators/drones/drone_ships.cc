@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 
 namespace collision::client {
 namespace {

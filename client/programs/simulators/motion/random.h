@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "client/api/types.h"
+#include "collision/types.h"
 
 namespace collision::client {
 

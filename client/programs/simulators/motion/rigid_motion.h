@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-#include "client/api/types.h"
 #include "client/library/vector.h"
 #include "client/programs/simulators/motion/motion_log.h"
 #include "client/programs/simulators/motion/random.h"
+#include "collision/types.h"
 
 namespace collision::client {
 

@@ -1,6 +1,6 @@
 #include "client/programs/simulators/motion/ship_agent.h"
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 
 namespace collision::client {
 

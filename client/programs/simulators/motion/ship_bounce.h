@@ -5,8 +5,8 @@
 #include <map>
 #include <vector>
 
-#include "client/api/types.h"
 #include "client/programs/simulators/motion/rigid_motion.h"
+#include "collision/types.h"
 
 namespace collision::client {
 

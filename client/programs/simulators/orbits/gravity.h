@@ -15,7 +15,7 @@
 //   ∇²g v v = 3 μ/r⁴ ((v² − 5 v_r²) r̂ + 2 v_r v),  at most 3 μ/r⁴ (v² + 2 v |v_r| + 5 v_r²).
 #pragma once
 
-#include "client/api/types.h"
+#include "collision/types.h"
 
 namespace collision::client {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "client/api/types.h"
+#include "collision/types.h"
 
 namespace collision::client {
 

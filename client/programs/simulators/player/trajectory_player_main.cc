@@ -8,13 +8,13 @@
 #include <map>
 #include <stdexcept>
 
-#include "client/api/event_text.h"
 #include "client/library/validation.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/mesh_option.h"
 #include "client/programs/shared/stop_signal.h"
 #include "client/programs/simulators/player/csv_rows.h"
 #include "client/programs/simulators/player/player.h"
+#include "collision/event_text.h"
 
 namespace collision::client {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 
 namespace collision::client {
 namespace {

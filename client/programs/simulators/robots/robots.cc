@@ -1,6 +1,6 @@
 #include "client/programs/simulators/robots/robots.h"
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 
 namespace collision::client {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "client/api/types.h"
+#include "collision/types.h"
 
 namespace collision::client {
 

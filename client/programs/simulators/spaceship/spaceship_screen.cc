@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "client/api/event_text.h"
 #include "client/library/network/conversion.h"
+#include "collision/event_text.h"
 
 namespace collision::client {
 namespace {

@@ -6,14 +6,14 @@
 #include <set>
 #include <string>
 
-#include "client/api/pending_names.h"
-#include "client/api/world.h"
 #include "client/library/network/message_monitor.h"
 #include "client/programs/shared/terminal.h"
 #include "client/programs/shared/world_view.h"
 #include "client/programs/simulators/motion/ship.h"
 #include "client/programs/simulators/spaceship/spaceship_helm.h"
 #include "client/programs/simulators/spaceship/spaceship_panel.h"
+#include "collision/pending_names.h"
+#include "collision/world.h"
 
 namespace collision::client {
 

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "client/api/shape.h"
 #include "client/programs/shared/pace.h"
 #include "client/programs/simulators/motion/motion_log.h"
+#include "collision/shape.h"
 
 namespace collision::client {
 

@@ -13,6 +13,10 @@ constexpr const char* kIndent = "                                        ";
 constexpr Example kExamples[] = {
     {"status", "status                   whether all is well; else what is wrong, and what to do"},
     {"status", "status --all             every simulator, the broad phase and why, all counters"},
+    {"health", "health                   for probes: one sentence, and exit code 0, 1 or 2"},
+    {"health",
+     "health --require-simulators 3 --max-age 2\n"
+     "@critical if fewer are alive, or no new status comes within 2 s"},
     {"earliest", "earliest                 the pair that can touch first, and the earliest time"},
     {"agents", "agents                   every agent, and how long it is clear"},
     {"agents", "agents --watch           likewise every second, with fresh states, until Ctrl-C"},

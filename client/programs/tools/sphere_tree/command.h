@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "client/api/mesh_file.h"
+#include "client/mesh/mesh_file.h"
 
 namespace collision::client {
 

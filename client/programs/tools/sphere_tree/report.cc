@@ -9,9 +9,9 @@
 #include <thread>
 #include <utility>
 
-#include "client/api/shape.h"
 #include "client/library/shape/core_mesh.h"
 #include "client/programs/tools/collisionctl/pages/text_pages.h"
+#include "collision/shape.h"
 #include "collision_core/sphere_tree/tree_cut.h"
 
 namespace collision::client {

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "client/api/types.h"
+#include "collision/types.h"
 #include "idl/messages.pb.h"
 
 namespace collision::client {

@@ -9,10 +9,10 @@
 #include <functional>
 #include <map>
 
-#include "client/api/monitor.h"
-#include "client/api/shape.h"
-#include "client/api/world.h"
 #include "client/library/network/message_monitor.h"
+#include "collision/monitor.h"
+#include "collision/shape.h"
+#include "collision/world.h"
 #include "idl/dds/session.h"
 #include "idl/identity.h"
 

@@ -1,6 +1,6 @@
 // Goal:   a Monitor hands on everything that its network receives, as plain values.
 // Method: messages with a different value in every field, on a network under the test's control.
-#include "client/api/monitor.h"
+#include "collision/monitor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Goal:   a shape contains the given mesh, is checked as the service checks it, and two equal
 //         meshes are one shape.
 // Method: a tetrahedron and damaged variants; bytes and hash against idl/shape_bytes.h.
-#include "client/api/shape.h"
+#include "collision/shape.h"
 
 #include <gtest/gtest.h>
 

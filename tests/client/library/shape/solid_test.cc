@@ -2,7 +2,7 @@
 //         and have equal hashes if they are equal.
 // Method: each kind against its bytes and its radius in closed form; every field broken in turn,
 //         against the core's own check; pairs that differ only in the sign of a zero.
-#include "client/api/solid.h"
+#include "collision/solid.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "client/api/shape.h"
 #include "client/library/validation.h"
+#include "collision/shape.h"
 #include "collision_core/shape/shape.h"
 #include "idl/shape_bytes.h"
 #include "tests/support/random.h"

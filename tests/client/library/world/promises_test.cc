@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "client/api/world.h"
+#include "collision/world.h"
 #include "tests/client/fake_transport.h"
 
 namespace collision::client {

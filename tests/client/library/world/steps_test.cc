@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "client/api/world.h"
+#include "collision/world.h"
 #include "tests/client/fake_transport.h"
 
 namespace collision::client {

@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "client/api/shape.h"
 #include "client/library/world/shape_publisher.h"
+#include "collision/shape.h"
 #include "idl/limits.h"
 #include "tests/client/fake_transport.h"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "client/api/mesh_file.h"
-#include "client/api/shape.h"
+#include "client/mesh/mesh_file.h"
 #include "client/programs/simulators/motion/rigid_motion.h"
+#include "collision/shape.h"
 
 namespace collision::client {
 namespace {

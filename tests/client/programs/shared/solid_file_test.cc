@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <fstream>
 
-#include "client/api/shape.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/mesh_option.h"
+#include "collision/shape.h"
 
 namespace collision::client {
 namespace {

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-#include "client/api/shape.h"
+#include "collision/shape.h"
 
 namespace collision::client {
 namespace {

@@ -12,8 +12,8 @@
 #include <map>
 #include <set>
 
-#include "client/api/shape.h"
 #include "client/checker/motion/true_contacts.h"
+#include "collision/shape.h"
 #include "collision_core/detection/detector.h"
 #include "collision_core/shape/shape.h"
 #include "tests/support/sanitized.h"

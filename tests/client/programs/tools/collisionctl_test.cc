@@ -3,11 +3,11 @@
 //         compared.
 #include <gtest/gtest.h>
 
-#include "client/api/types.h"
 #include "client/programs/tools/collisionctl/json/event_json.h"
 #include "client/programs/tools/collisionctl/json/world_json.h"
 #include "client/programs/tools/collisionctl/pages/text_pages.h"
 #include "client/programs/tools/collisionctl/status/status_page.h"
+#include "collision/types.h"
 #include "tests/client/fake_transport.h"
 #include "tests/client/programs/tools/collisionctl_fixture.h"
 

@@ -1,9 +1,9 @@
 #include "client/programs/tools/collisionctl/events/event_printer.h"
 
-#include "client/api/event_text.h"
 #include "client/library/network/conversion.h"
 #include "client/programs/tools/collisionctl/json/event_json.h"
 #include "client/programs/tools/collisionctl/pages/text_pages.h"
+#include "collision/event_text.h"
 
 namespace collision::client {
 

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "client/api/event_text.h"
-#include "client/api/types.h"
+#include "collision/event_text.h"
+#include "collision/types.h"
 #include "idl/identity.h"
 
 namespace collision::client {

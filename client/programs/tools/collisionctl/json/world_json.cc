@@ -3,10 +3,10 @@
 #include <limits>
 #include <vector>
 
-#include "client/api/shape.h"
 #include "client/library/network/conversion.h"
 #include "client/programs/tools/collisionctl/json/agent_reference.h"
 #include "client/programs/tools/collisionctl/json/json_writer.h"
+#include "collision/shape.h"
 
 namespace collision::client {
 namespace {

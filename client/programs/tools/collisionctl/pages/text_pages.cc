@@ -6,10 +6,10 @@
 #include <string_view>
 #include <utility>
 
-#include "client/api/event_text.h"
-#include "client/api/shape.h"
-#include "client/api/types.h"
 #include "client/library/network/conversion.h"
+#include "collision/event_text.h"
+#include "collision/shape.h"
+#include "collision/types.h"
 
 namespace collision::client {
 namespace {

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "client/api/event_text.h"
 #include "client/programs/tools/collisionctl/pages/text_pages.h"
 #include "client/programs/tools/collisionctl/status/status_fields.h"
 #include "client/programs/tools/collisionctl/status/verdict.h"
+#include "collision/event_text.h"
 #include "idl/identity.h"
 #include "idl/limits.h"
 

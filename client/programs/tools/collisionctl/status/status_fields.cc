@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "client/api/event_text.h"
+#include "collision/event_text.h"
 
 namespace collision::client {
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <sstream>
 
-#include "client/api/event_text.h"
 #include "client/library/network/conversion.h"
 #include "client/programs/tools/collisionctl/events/event_filter.h"
 #include "client/programs/tools/collisionctl/json/event_json.h"
 #include "client/programs/tools/collisionctl/pages/text_pages.h"
 #include "client/programs/tools/collisionctl/status/verdict.h"
+#include "collision/event_text.h"
 
 namespace collision::client {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "client/api/event_text.h"
 #include "client/programs/tools/collisionctl/pages/text_pages.h"
+#include "collision/event_text.h"
 
 namespace collision::client {
 namespace {

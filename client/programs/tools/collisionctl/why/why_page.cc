@@ -5,8 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "client/api/event_text.h"
-#include "client/api/shape.h"
 #include "client/library/network/conversion.h"
 #include "client/programs/tools/collisionctl/events/event_filter.h"
 #include "client/programs/tools/collisionctl/json/event_json.h"
@@ -14,6 +12,8 @@
 #include "client/programs/tools/collisionctl/pages/text_pages.h"
 #include "client/programs/tools/collisionctl/status/status_fields.h"
 #include "client/programs/tools/collisionctl/why/advice.h"
+#include "collision/event_text.h"
+#include "collision/shape.h"
 
 namespace collision::client {
 namespace {

@@ -1,0 +1,167 @@
+#include "client/c/given.h"
+
+#include <cmath>
+#include <limits>
+
+namespace collision::client::c {
+namespace {
+
+constexpr double kNotDeclared = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint32_t kDomainOfEnvironment = std::numeric_limits<std::uint32_t>::max();
+
+Vector3 VectorOf(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
+
+Quaternion QuaternionOf(const double (&values)[4]) {
+  return {values[0], values[1], values[2], values[3]};
+}
+
+std::string TextOf(const char* text) { return text == nullptr ? "" : text; }
+
+std::optional<double> Declared(double value) {
+  return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
+std::vector<std::string> TextsOf(const char* name, const char* const* texts, std::size_t count) {
+  if (count > 0) Require(name, texts);
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    Require(name, texts[i]);
+    all.emplace_back(texts[i]);
+  }
+  return all;
+}
+
+}  // namespace
+
+collision_world_options DefaultWorldOptions() {
+  const WorldOptions defaults{.world = "default", .domain = 0};
+  collision_world_options options{};
+  options.struct_size = sizeof options;
+  options.domain = kDomainOfEnvironment;
+  options.lock_step = defaults.lock_step ? 1 : 0;
+  options.on_demand = defaults.on_demand ? 1 : 0;
+  options.lead_ns = defaults.lead.count();
+  return options;
+}
+
+collision_monitor_options DefaultMonitorOptions() {
+  collision_monitor_options options{};
+  options.struct_size = sizeof options;
+  options.domain = kDomainOfEnvironment;
+  options.service = 1;
+  return options;
+}
+
+collision_agent_description DefaultDescription() {
+  collision_agent_description description{};
+  description.struct_size = sizeof description;
+  description.radius_m = description.acceleration_max_m_s2 = kNotDeclared;
+  description.angular_acceleration_max_rad_s2 = description.speed_max_m_s = kNotDeclared;
+  description.time_step_s = kNotDeclared;
+  return description;
+}
+
+collision_state DefaultState() {
+  collision_state state{};
+  state.struct_size = sizeof state;
+  state.orientation[0] = 1;
+  state.direction_until_ns = state.expiry_ns = kNever;
+  return state;
+}
+
+WorldOptions FromC(const collision_world_options& given) {
+  WorldOptions options{
+      .world = given.world == nullptr ? DefaultWorld() : given.world,
+      .simulator = TextOf(given.simulator),
+      .domain = given.domain == kDomainOfEnvironment ? DefaultDomain() : given.domain};
+  options.frame = TextOf(given.frame);
+  options.lock_step = given.lock_step != 0;
+  options.run = given.run;
+  options.incarnation = given.incarnation;
+  options.on_demand = given.on_demand != 0;
+  options.lead = std::chrono::nanoseconds(given.lead_ns);
+  options.chunk_size = given.chunk_size;
+  options.on_leave = given.leave_agents != 0 ? OnLeave::kLeave : OnLeave::kRemove;
+  options.levels = TextsOf("levels", given.levels, given.levels_count);
+  if (given.wall_clock != nullptr) {
+    options.wall_clock = [clock = given.wall_clock, user = given.wall_clock_user] {
+      return clock(user);
+    };
+  }
+  return options;
+}
+
+MonitorOptions FromC(const collision_monitor_options& given) {
+  return {.world = given.world == nullptr ? DefaultWorld() : given.world,
+          .domain = given.domain == kDomainOfEnvironment ? DefaultDomain() : given.domain,
+          .service = given.service != 0,
+          .simulators = given.simulators != 0};
+}
+
+AgentDescription FromC(const collision_agent_description& given) {
+  AgentDescription description{.name = TextOf(given.name),
+                               .radius_m = Declared(given.radius_m),
+                               .margin_m = given.margin_m,
+                               .acceleration_max_m_s2 = Declared(given.acceleration_max_m_s2),
+                               .jerk_max_m_s3 = given.jerk_max_m_s3};
+  description.angular_acceleration_max_rad_s2 = Declared(given.angular_acceleration_max_rad_s2);
+  description.speed_max_m_s = Declared(given.speed_max_m_s);
+  description.time_step_s = Declared(given.time_step_s);
+  description.class_name = TextOf(given.class_name);
+  description.assembly = TextOf(given.assembly);
+  description.meets_in_assembly =
+      TextsOf("meets_in_assembly", given.meets_in_assembly, given.meets_in_assembly_count);
+  description.never_meets = TextsOf("never_meets", given.never_meets, given.never_meets_count);
+  if (given.tags_count > 0) Require("tags", given.tags);
+  for (std::size_t i = 0; i < given.tags_count; ++i) {
+    description.tags.push_back({TextOf(given.tags[i].key), TextOf(given.tags[i].value)});
+  }
+  if (given.shape != nullptr) description.shape = given.shape->shape;
+  const Vector3 normal = VectorOf(given.half_space_normal);
+  if (normal != Vector3{}) description.half_space = {normal, given.half_space_offset_m};
+  description.hypothetical = given.hypothetical != 0;
+  return description;
+}
+
+State FromC(const collision_state& given) {
+  State state{.stamp_ns = given.stamp_ns,
+              .position_m = VectorOf(given.position_m),
+              .velocity_m_s = VectorOf(given.velocity_m_s),
+              .acceleration_m_s2 = VectorOf(given.acceleration_m_s2),
+              .orientation = QuaternionOf(given.orientation),
+              .angular_velocity_rad_s = VectorOf(given.angular_velocity_rad_s)};
+  state.position_error_m = given.position_error_m;
+  state.velocity_error_m_s = given.velocity_error_m_s;
+  state.rotation_error_rad = given.rotation_error_rad;
+  const Vector3 direction = VectorOf(given.thrust_direction);
+  if (direction != Vector3{}) state.thrust_direction = direction;
+  state.direction_until_ns = given.direction_until_ns;
+  if (given.expiry_ns != kNever) state.expiry_ns = given.expiry_ns;
+  state.discontinuity = given.discontinuity != 0;
+  return state;
+}
+
+AgentId FromC(const collision_agent_id& id) {
+  return {id.simulator, id.run, id.slot, id.generation};
+}
+
+Solid FromC(const collision_solid& given) {
+  if (given.kind < COLLISION_BALL || given.kind > COLLISION_CONE) {
+    throw std::invalid_argument("kind: " + std::to_string(given.kind) +
+                                ", allowed: COLLISION_BALL to COLLISION_CONE");
+  }
+  Solid solid{.kind = static_cast<Solid::Kind>(given.kind),
+              .half_extents_m = VectorOf(given.half_extents_m),
+              .rounding_m = given.rounding_m,
+              .position_m = VectorOf(given.position_m)};
+  if (given.points > 0) Require("points_m", given.points_m);
+  for (std::size_t i = 0; i < given.points; ++i) {
+    const double* point = given.points_m + 3 * i;
+    solid.points_m.push_back({point[0], point[1], point[2]});
+  }
+  const Quaternion orientation = QuaternionOf(given.orientation);
+  if (orientation != Quaternion{}) solid.orientation = orientation;
+  return solid;
+}
+
+}  // namespace collision::client::c

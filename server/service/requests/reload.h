@@ -1,0 +1,44 @@
+// Reading the configuration anew while the service runs.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "idl/config.pb.h"
+#include "server/config/config.h"
+
+namespace collision::server {
+
+/// Whether a field can change while the service runs. Answers depend on all others: a recording,
+/// which holds the configuration of its start, is to give the same events.
+bool CanChange(std::string_view path);
+
+/// What came of it.
+struct Reloaded {
+  bool accepted = false;                  ///< False: the file is wrong, and nothing has changed.
+  std::vector<std::string> changed = {};  ///< "log_level: info -> debug"
+  /// Fields that differ from those in force and take a new start.
+  std::vector<std::string> unchanged = {};
+  std::vector<std::string> errors = {};  ///< Unless accepted: as of LoadConfig().
+};
+
+/// Holds the configuration in force. One thread.
+class Reloader {
+ public:
+  /// `load`: reads it as the start did, command line and environment included; null: there is no
+  /// file, and nothing changes.
+  Reloader(v1::Config in_force, std::function<ConfigResult()> load)
+      : in_force_(std::move(in_force)), load_(std::move(load)) {}
+
+  Reloaded Reload();
+
+  const v1::Config& in_force() const { return in_force_; }
+
+ private:
+  v1::Config in_force_;
+  std::function<ConfigResult()> load_;
+};
+
+}  // namespace collision::server

@@ -1,0 +1,73 @@
+#include "server/service/requests/signal_requests.h"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <string>
+#include <utility>
+
+#include "server/process/logging.h"
+#include "server/process/signals.h"
+
+namespace collision::server {
+namespace {
+
+std::string Listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+}  // namespace
+
+void SignalRequests::AskToReload(pid_t asker) {
+  const std::lock_guard lock(mutex_);
+  askers_.push_back(asker);
+}
+
+void SignalRequests::AskToDump() {
+  const std::lock_guard lock(mutex_);
+  dump_ = true;
+}
+
+void SignalRequests::Fulfil() {
+  std::vector<pid_t> askers;
+  bool dump = false;
+  {
+    const std::lock_guard lock(mutex_);
+    askers.swap(askers_);
+    dump = std::exchange(dump_, false);
+  }
+  if (!askers.empty()) {
+    notifier_->Reloading();
+    const bool done = Reload();
+    notifier_->Ready();
+    for (const pid_t asker : askers) AnswerReload(asker, done);
+  }
+  if (!dump) return;
+  for (const std::string& line : state_lines_()) spdlog::info("state: {}", line);
+}
+
+bool SignalRequests::Reload() {
+  const Reloaded reloaded = reloader_.Reload();
+  for (const std::string& error : reloaded.errors) spdlog::error("not reloaded: {}", error);
+  if (!reloaded.accepted) {
+    spdlog::error("the configuration stays as it was");
+    return false;
+  }
+  const v1::Config& config = reloader_.in_force();
+  try {
+    StartLogging(config.log_level(), config.log_file());
+  } catch (const std::exception& error) {
+    spdlog::error("not reloaded: log_file: {}; the log stays where it was", error.what());
+    return false;
+  }
+  const std::string changed = Listed(reloaded.changed);
+  spdlog::info("reloaded: {}", changed.empty() ? "nothing has changed" : changed);
+  if (!reloaded.unchanged.empty()) {
+    spdlog::warn("takes a new start to change: {}", Listed(reloaded.unchanged));
+  }
+  return true;
+}
+
+}  // namespace collision::server

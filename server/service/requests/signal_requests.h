@@ -1,0 +1,44 @@
+// What the service is asked by signals, and does between two steps.
+#pragma once
+
+#include <sys/types.h>
+
+#include <functional>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/process/service_notify.h"
+#include "server/service/requests/reload.h"
+
+namespace collision::server {
+
+/// SIGHUP: the configuration is read anew, and the log file opened anew. SIGUSR1: what the service
+/// knows is written to the log.
+class SignalRequests {
+ public:
+  /// `state_lines`: what the service knows. `notifier` outlives it.
+  SignalRequests(Reloader reloader, std::function<std::vector<std::string>()> state_lines,
+                 ServiceNotifier* notifier)
+      : reloader_(std::move(reloader)), state_lines_(std::move(state_lines)), notifier_(notifier) {}
+
+  /// These are called by the thread of the signals.
+  void AskToReload(pid_t asker);
+  void AskToDump();
+
+  /// Does what was asked for, on the thread of the steps.
+  void Fulfil();
+
+ private:
+  bool Reload();
+
+  Reloader reloader_;
+  const std::function<std::vector<std::string>()> state_lines_;
+  ServiceNotifier* const notifier_;
+  std::mutex mutex_;
+  std::vector<pid_t> askers_;  ///< Of a reload.
+  bool dump_ = false;
+};
+
+}  // namespace collision::server

@@ -1,0 +1,52 @@
+// Goal:   a service that runs takes what can change of a new configuration, names the rest, and
+//         keeps the old one where the new one is wrong.
+#include "server/service/requests/reload.h"
+
+#include <gtest/gtest.h>
+
+#include "server/config/config_options.h"
+
+namespace collision::server {
+namespace {
+
+TEST(Reload, TakesWhatCanChangeAndNamesTheRest) {
+  std::string text = "log_level: \"info\" agents_max: 10";
+  Reloader reloader(ParseConfig(text, "f").config, [&text] { return ParseConfig(text, "f"); });
+  Reloaded reloaded = reloader.Reload();
+  EXPECT_TRUE(reloaded.accepted);
+  EXPECT_TRUE(reloaded.changed.empty() && reloaded.unchanged.empty());
+
+  text = "log_level: \"debug\" agents_max: 20 pairs_max: 70";
+  reloaded = reloader.Reload();
+  EXPECT_TRUE(reloaded.accepted);
+  EXPECT_EQ(reloaded.changed, std::vector<std::string>{"log_level: \"info\" -> \"debug\""});
+  EXPECT_EQ(reloaded.unchanged, (std::vector<std::string>{"agents_max", "pairs_max"}));
+  EXPECT_EQ(reloader.in_force().log_level(), "debug");
+  EXPECT_EQ(reloader.in_force().agents_max(), 10u);
+  EXPECT_TRUE(reloader.Reload().changed.empty()) << "nothing is told twice";
+
+  text = "log_level: \"loud\"";
+  reloaded = reloader.Reload();
+  EXPECT_FALSE(reloaded.accepted);
+  ASSERT_EQ(reloaded.errors.size(), 1u);
+  EXPECT_NE(reloaded.errors[0].find("f:1: log_level"), std::string::npos) << reloaded.errors[0];
+  EXPECT_EQ(reloader.in_force().log_level(), "debug");
+}
+
+TEST(Reload, WithoutAFileNothingChanges) {
+  Reloader reloader(ParseConfig("", "").config, nullptr);
+  const Reloaded reloaded = reloader.Reload();
+  EXPECT_TRUE(reloaded.accepted);
+  EXPECT_TRUE(reloaded.changed.empty() && reloaded.unchanged.empty());
+}
+
+TEST(Reload, FieldsThatCanChangeAreInTheTable) {
+  for (const char* field : {"log_level", "log_file"}) {
+    EXPECT_TRUE(CanChange(field));
+    EXPECT_NE(FindConfigOption(field), nullptr);
+  }
+  EXPECT_FALSE(CanChange("agents_max"));
+}
+
+}  // namespace
+}  // namespace collision::server
