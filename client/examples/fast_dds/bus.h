@@ -1,0 +1,114 @@
+// The DDS side of both programs: a participant, and readers and writers with the quality of service
+// that the topics have (idl/README.md, Topics).
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <fastdds/dds/core/condition/WaitSet.hpp>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace example {
+
+namespace dds = eprosima::fastdds::dds;
+
+/// What differs from topic to topic: the rest is reliable, keep-last.
+struct TopicSettings {
+  std::string name;        ///< What follows "collision/v1/".
+  int depth = 1;           ///< Of a reader's history, for each key.
+  bool volatile_ = false;  ///< Else transient-local.
+  bool leased = false;     ///< A writer's silence is noticed after 2 s.
+};
+
+class Bus {
+ public:
+  /// Reads in the partition `world`; writes in "WORLD.SIMULATOR".
+  Bus(std::uint32_t domain, const std::string& world, const std::string& simulator);
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+  ~Bus();
+
+  dds::DataReader* MakeReader(const dds::TypeSupport& type, const TopicSettings& settings);
+  dds::DataWriter* MakeWriter(const dds::TypeSupport& type, const TopicSettings& settings);
+
+  /// Returns when a reader has something, or after `timeout`.
+  void Wait(std::chrono::milliseconds timeout);
+
+ private:
+  dds::Topic* MakeTopic(const dds::TypeSupport& type, const std::string& name);
+
+  dds::DomainParticipant* participant_ = nullptr;
+  dds::Subscriber* subscriber_ = nullptr;
+  dds::Publisher* publisher_ = nullptr;
+  dds::WaitSet waits_;
+};
+
+/// `PubSubType` is what fastddsgen made of the sample's type: CollisionEventPubSubType.
+template <typename PubSubType>
+class Reader {
+ public:
+  using Sample = typename PubSubType::type;
+
+  Reader(Bus& bus, const TopicSettings& settings)
+      : reader_(bus.MakeReader(dds::TypeSupport(new PubSubType), settings)) {}
+
+  /// Everything that has come. Disposals are left out: the service has none.
+  std::vector<Sample> Take() {
+    std::vector<Sample> samples;
+    Sample sample;
+    dds::SampleInfo info;
+    while (reader_->take_next_sample(&sample, &info) ==
+           eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+      if (info.valid_data) samples.push_back(sample);
+    }
+    return samples;
+  }
+
+  /// How many writers live, by their leases.
+  int writers_alive() {
+    dds::LivelinessChangedStatus status;
+    reader_->get_liveliness_changed_status(status);
+    return status.alive_count;
+  }
+
+ private:
+  dds::DataReader* reader_;
+};
+
+template <typename PubSubType>
+class Writer {
+ public:
+  using Sample = typename PubSubType::type;
+
+  Writer(Bus& bus, const TopicSettings& settings)
+      : name_(settings.name), writer_(bus.MakeWriter(dds::TypeSupport(new PubSubType), settings)) {}
+
+  void Write(Sample sample) {
+    if (!writer_->write(&sample)) throw std::runtime_error("cannot write to " + name_);
+  }
+
+  /// What goes out is the key alone.
+  void Dispose(Sample sample) {
+    if (writer_->dispose(&sample, dds::HANDLE_NIL) !=
+        eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+      throw std::runtime_error("cannot dispose of a key of " + name_);
+    }
+  }
+
+  /// Until every reader has acknowledged all of it; at most two seconds.
+  void Flush() { writer_->wait_for_acknowledgments(eprosima::fastrtps::Duration_t(2, 0)); }
+
+ private:
+  std::string name_;
+  dds::DataWriter* writer_;
+};
+
+}  // namespace example
