@@ -20,13 +20,26 @@ namespace example {
 
 namespace dds = eprosima::fastdds::dds;
 
-/// What differs from topic to topic: the rest is reliable, keep-last.
-struct TopicSettings {
-  std::string name;        ///< What follows "collision/v1/".
-  int depth = 1;           ///< Of a reader's history, for each key.
-  bool volatile_ = false;  ///< Else transient-local.
-  bool leased = false;     ///< A writer's silence is noticed after 2 s.
+/// What differs from topic to topic: the rest is reliable and keep-last.
+struct Topic {
+  const char* name;  ///< What follows "collision/v1/".
+  int depth;         ///< Of the history of each key.
+  bool durable;      ///< Transient-local; else volatile.
+  bool leased;       ///< The silence of a writer is noticed after 2 s.
 };
+
+// The rows of idl/README.md that these programs need.
+inline constexpr Topic kServiceHello{"hello", 1, true, false};
+inline constexpr Topic kSimulatorHello{"simulator_hello", 1, true, false};
+inline constexpr Topic kAgentDescription{"agent_description", 1, true, false};
+inline constexpr Topic kAgentStates{"agent_states", 1, true, false};
+inline constexpr Topic kSimulatorClock{"simulator_clock", 1, true, true};
+inline constexpr Topic kClearance{"clearance", 1, true, false};
+inline constexpr Topic kContact{"contact", 32768, true, false};
+inline constexpr Topic kForecast{"forecast", 2, true, false};
+inline constexpr Topic kRejection{"rejection", 64, false, false};
+inline constexpr Topic kSimulatorReport{"simulator_report", 1, true, false};
+inline constexpr Topic kServiceStatus{"service_status", 1, true, true};
 
 class Bus {
  public:
@@ -36,14 +49,14 @@ class Bus {
   Bus& operator=(const Bus&) = delete;
   ~Bus();
 
-  dds::DataReader* MakeReader(const dds::TypeSupport& type, const TopicSettings& settings);
-  dds::DataWriter* MakeWriter(const dds::TypeSupport& type, const TopicSettings& settings);
+  dds::DataReader* MakeReader(const dds::TypeSupport& type, const Topic& topic);
+  dds::DataWriter* MakeWriter(const dds::TypeSupport& type, const Topic& topic);
 
   /// Returns when a reader has something, or after `timeout`.
   void Wait(std::chrono::milliseconds timeout);
 
  private:
-  dds::Topic* MakeTopic(const dds::TypeSupport& type, const std::string& name);
+  dds::Topic* MakeTopic(const dds::TypeSupport& type, const Topic& topic);
 
   dds::DomainParticipant* participant_ = nullptr;
   dds::Subscriber* subscriber_ = nullptr;
@@ -57,8 +70,8 @@ class Reader {
  public:
   using Sample = typename PubSubType::type;
 
-  Reader(Bus& bus, const TopicSettings& settings)
-      : reader_(bus.MakeReader(dds::TypeSupport(new PubSubType), settings)) {}
+  Reader(Bus& bus, const Topic& topic)
+      : reader_(bus.MakeReader(dds::TypeSupport(new PubSubType), topic)) {}
 
   /// Everything that has come. Disposals are left out: the service has none.
   std::vector<Sample> Take() {
@@ -88,8 +101,8 @@ class Writer {
  public:
   using Sample = typename PubSubType::type;
 
-  Writer(Bus& bus, const TopicSettings& settings)
-      : name_(settings.name), writer_(bus.MakeWriter(dds::TypeSupport(new PubSubType), settings)) {}
+  Writer(Bus& bus, const Topic& topic)
+      : name_(topic.name), writer_(bus.MakeWriter(dds::TypeSupport(new PubSubType), topic)) {}
 
   void Write(Sample sample) {
     if (!writer_->write(&sample)) throw std::runtime_error("cannot write to " + name_);

@@ -31,10 +31,10 @@ class Monitor {
  public:
   explicit Monitor(const Options& options)
       : bus_(options.domain, options.world, "monitor"),
-        hellos_(bus_, {"hello"}),
-        statuses_(bus_, {"service_status", 1, false, true}),
-        contacts_(bus_, {"contact", 32768}),
-        forecasts_(bus_, {"forecast", 2}) {}
+        hellos_(bus_, kServiceHello),
+        statuses_(bus_, kServiceStatus),
+        contacts_(bus_, kContact),
+        forecasts_(bus_, kForecast) {}
 
   /// Returns whether a service of our wire revision was heard.
   bool Run(double seconds) {
@@ -105,7 +105,7 @@ class Monitor {
       text += ", " + simulator.name().to_string() + (simulator.alive() ? "" : " (not alive)");
     }
     for (const KeyValue& extension : status.extensions()) {
-      if (extension.key() == "waiting_why") text += ", waits: " + extension.value().to_string();
+      if (extension.key() == "waiting_for") text += ", waits for: " + extension.value().to_string();
     }
     Say(text);
   }
@@ -136,7 +136,7 @@ int Main(int argc, char** argv) {
     std::signal(signal, [](int) { interrupted = 1; });
   }
   if (Monitor(options).Run(options.seconds)) return 0;
-  std::cerr << "no service was heard in world \"" << options.world << "\" on domain "
+  std::cerr << "no service that fits was heard in world \"" << options.world << "\" on domain "
             << options.domain << "\n";
   return kNoService;
 }

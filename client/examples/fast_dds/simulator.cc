@@ -55,16 +55,16 @@ Simulator::Simulator(const Options& options)
       id_(SimulatorId(options.simulator)),
       incarnation_(RandomIncarnation()),
       bus_(options.domain, options.world, options.simulator),
-      hello_(bus_, {"simulator_hello"}),
-      descriptions_(bus_, {"agent_description"}),
-      states_(bus_, {"agent_states"}),
-      clock_(bus_, {"simulator_clock", 1, false, true}),
-      hellos_(bus_, {"hello"}),
-      statuses_(bus_, {"service_status", 1, false, true}),
-      reports_(bus_, {"simulator_report"}),
-      rejections_(bus_, {"rejection", 64, true}),
-      clearances_(bus_, {"clearance"}),
-      contacts_(bus_, {"contact", 32768}) {}
+      hello_(bus_, kSimulatorHello),
+      descriptions_(bus_, kAgentDescription),
+      states_(bus_, kAgentStates),
+      clock_(bus_, kSimulatorClock),
+      hellos_(bus_, kServiceHello),
+      statuses_(bus_, kServiceStatus),
+      reports_(bus_, kSimulatorReport),
+      rejections_(bus_, kRejection),
+      clearances_(bus_, kClearance),
+      contacts_(bus_, kContact) {}
 
 void Simulator::Run(double seconds) {
   Join();
@@ -160,10 +160,14 @@ void Simulator::WriteClock(std::int64_t clock_ns, std::int64_t next_ns) {
   last_clock_.states_sequence(states_sequence_);
   last_clock_.descriptions_sequence(descriptions_sequence_);
   last_clock_.agents(agents_);
-  RepeatClock();
+  SendClock();
 }
 
 void Simulator::RepeatClock() {
+  if (clock_written_at_ != SteadyTime()) SendClock();
+}
+
+void Simulator::SendClock() {
   last_clock_.simulator_id(id_);
   last_clock_.incarnation(incarnation_);
   last_clock_.run(run_);
@@ -203,8 +207,7 @@ void Simulator::WaitFor(const std::function<bool()>& condition) {
     }
     // A writer that was silent for longer than its lease, since its process stood still, lives
     // again with its next sample only.
-    const bool has_clock = clock_written_at_ != SteadyTime();
-    if (has_clock && now - clock_written_at_ >= kClockPeriod) RepeatClock();
+    if (now - clock_written_at_ >= kClockPeriod) RepeatClock();
     bus_.Wait(100ms);
   }
 }
@@ -248,7 +251,7 @@ void Simulator::ReadHello(const ServiceHello& hello) {
   service_in_force_ = hello.service_id();
   heard_at_ = SteadyClock::now();
   // It grants nothing until each simulator's clock names it.
-  if (clock_written_at_ != SteadyTime()) RepeatClock();
+  RepeatClock();
 }
 
 /// Which program the service takes for this simulator, and whether its run goes on.

@@ -39,7 +39,9 @@ class Simulator {
   void Describe();
   void WriteStates(std::int64_t expiry_ns);
   void WriteClock(std::int64_t clock_ns, std::int64_t next_ns);
+  /// The last one, if there was one: with the run and the service that are in force now.
   void RepeatClock();
+  void SendClock();
   void Leave();
 
   /// Reads and keeps its clock alive until `condition` holds.
