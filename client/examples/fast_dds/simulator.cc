@@ -20,6 +20,7 @@ constexpr std::int64_t kStep = 100'000'000;  // [ns]
 constexpr auto kPatience = 10s;
 constexpr auto kContactsPatience = 30s;
 constexpr auto kClockPeriod = 500ms;  // A quarter of its lease.
+constexpr auto kSilence = 3s;         // A status comes every second.
 
 /// A ball that flies along x at constant velocity.
 struct Ball {
@@ -94,7 +95,7 @@ void Simulator::Join() {
   hello.version("fast-dds-simulator");
   hello_.Write(hello);
   heard_at_ = SteadyClock::now();
-  WaitFor([&] { return InForce() != nullptr; });
+  WaitFor([&] { return service_in_force_ != 0; });
   // A clock without a time is the question. The answer grants the time at which the world waits.
   WriteClock(kNotBegun, 0);
   const auto asked_at = SteadyClock::now();
@@ -103,9 +104,9 @@ void Simulator::Join() {
       throw std::runtime_error(name_is_taken_ ? "another program is simulator " + options_.simulator
                                               : "the service does not answer this simulator");
     }
-    return InForce()->granted_ns.has_value();
+    return InForce().granted_ns.has_value();
   });
-  begin_ns_ = *InForce()->granted_ns;
+  begin_ns_ = *InForce().granted_ns;
 }
 
 void Simulator::Describe() {
@@ -173,11 +174,9 @@ void Simulator::SendClock() {
   last_clock_.run(run_);
   last_clock_.simulator_name(options_.simulator);
   last_clock_.lock_step(true);
-  if (const Service* service = InForce()) {
-    last_clock_.service_id(service->hello->service_id());
-    last_clock_.service_term(service->hello->term());
-    last_clock_.clearances_sequence(service->clearances);
-  }
+  last_clock_.service_id(service_in_force_);
+  last_clock_.service_term(term_in_force_);
+  last_clock_.clearances_sequence(InForce().clearances);
   clock_.Write(last_clock_);
   clock_written_at_ = SteadyClock::now();
 }
@@ -214,7 +213,7 @@ void Simulator::WaitFor(const std::function<bool()>& condition) {
 
 /// A grant counts when the contacts before it have come.
 bool Simulator::IsGranted(std::int64_t instant_ns) {
-  const Service& service = *InForce();
+  const Service& service = InForce();
   const bool contacts_came = service.contacts_heard >= service.contacts_named ||
                              SteadyClock::now() - service.contacts_named_at > kContactsPatience;
   return service.granted_ns && *service.granted_ns >= instant_ns && contacts_came;
@@ -223,18 +222,14 @@ bool Simulator::IsGranted(std::int64_t instant_ns) {
 /// Hellos first. What is of another wire revision must not be read at all.
 void Simulator::Read() {
   for (const ServiceHello& hello : hellos_.Take()) ReadHello(hello);
-  if (InForce() == nullptr) return;
-  for (const ServiceStatus& status : statuses_.Take()) {
-    if (status.stamp().service_id() == service_in_force_) heard_at_ = SteadyClock::now();
-  }
+  if (service_in_force_ == 0) return;
+  for (const ServiceStatus& status : statuses_.Take()) ReadStatus(status);
   for (const SimulatorReport& report : reports_.Take()) ReadReport(report);
   for (const Rejection& rejection : rejections_.Take()) ReadRejection(rejection);
   for (const Clearance& clearance : clearances_.Take()) ReadClearance(clearance);
   for (const CollisionEvent& contact : contacts_.Take()) ReadContact(contact);
 }
 
-/// Of several services the highest term counts: that of a standby that has taken over. Its hello
-/// may be read after its clearances, so those of all services are kept.
 void Simulator::ReadHello(const ServiceHello& hello) {
   if (hello.wire_revision() != WIRE_REVISION) {
     throw std::runtime_error("the service speaks wire revision " +
@@ -245,12 +240,27 @@ void Simulator::ReadHello(const ServiceHello& hello) {
     throw std::runtime_error("world \"" + options_.world +
                              "\" runs in real time, not in lock-step");
   }
-  services_[hello.service_id()].hello = hello;
-  const Service* before = InForce();
-  if (before != nullptr && hello.term() <= before->hello->term()) return;
-  service_in_force_ = hello.service_id();
+  if (service_in_force_ == 0 || hello.term() > term_in_force_) {
+    Follow(hello.service_id(), hello.term());
+  }
+}
+
+/// A standby that has taken over writes nothing but its status, not even a hello, until it is
+/// named in the clocks of the simulators.
+void Simulator::ReadStatus(const ServiceStatus& status) {
+  const auto now = SteadyClock::now();
+  if (status.stamp().service_id() == service_in_force_) {
+    heard_at_ = now;
+  } else if (status.phase() == PHASE_SERVING && status.stamp().term() > term_in_force_ &&
+             (status.followers() > 0 || now - heard_at_ > kSilence)) {
+    Follow(status.stamp().service_id(), status.stamp().term());
+  }
+}
+
+void Simulator::Follow(std::uint64_t service_id, std::uint32_t term) {
+  service_in_force_ = service_id;
+  term_in_force_ = term;
   heard_at_ = SteadyClock::now();
-  // It grants nothing until each simulator's clock names it.
   RepeatClock();
 }
 
@@ -303,10 +313,6 @@ void Simulator::ReadRejection(const Rejection& rejection) {
       "refused: " + rejection.field().to_string() + ": " + rejection.detail().to_string();
   if (rejection.reason() == REJECTED_MISMATCH) throw std::runtime_error(text);
   if (agents_ > 0) std::cerr << text << "\n";  // Before, it is the name that is taken.
-}
-
-Simulator::Service* Simulator::InForce() {
-  return service_in_force_ == 0 ? nullptr : &services_.at(service_in_force_);
 }
 
 }  // namespace example

@@ -25,9 +25,9 @@ class Simulator {
  private:
   using SteadyTime = std::chrono::steady_clock::time_point;
 
-  /// What one service has said. There is more than one where a standby takes over.
+  /// What one service has said. There are more than one where a standby takes over, and what it says
+  /// may be read before it counts.
   struct Service {
-    std::optional<collision::v1::ServiceHello> hello;
     std::optional<std::int64_t> granted_ns;  ///< For this run of this program.
     std::uint64_t clearances = 0;            ///< Taken in up to this sequence.
     std::uint64_t contacts_named = 0;        ///< By a clearance: they count before its grant.
@@ -50,13 +50,15 @@ class Simulator {
 
   void Read();
   void ReadHello(const collision::v1::ServiceHello& hello);
+  void ReadStatus(const collision::v1::ServiceStatus& status);
   void ReadReport(const collision::v1::SimulatorReport& report);
   void ReadClearance(const collision::v1::Clearance& clearance);
   void ReadContact(const collision::v1::CollisionEvent& contact);
   void ReadRejection(const collision::v1::Rejection& rejection);
 
-  /// The service in force; null: none was heard.
-  Service* InForce();
+  /// From here on this service counts, of those that have been heard.
+  void Follow(std::uint64_t service_id, std::uint32_t term);
+  Service& InForce() { return services_[service_in_force_]; }
 
   Options options_;
   std::uint64_t id_;
@@ -77,7 +79,8 @@ class Simulator {
   Reader<collision::v1::CollisionEventPubSubType> contacts_;
 
   std::map<std::uint64_t, Service> services_;  ///< By service_id.
-  std::uint64_t service_in_force_ = 0;
+  std::uint64_t service_in_force_ = 0;         ///< 0: none was heard.
+  std::uint32_t term_in_force_ = 0;
   SteadyTime heard_at_;  ///< The service in force.
 
   std::int64_t begin_ns_ = 0;
