@@ -103,6 +103,9 @@ const std::vector<Layer>& Layers() {
        {"idl/", api, validation, library + "deadline.h", library + "identity/",
         library + "network/", library + "notices/", library + "world/"}},
       {library, {"idl/limits.h", api, validation}},
+      // Written from the IDL alone.
+      {"client/examples/fast_dds/",
+       {"bus.h", "collisionPubSubTypes.h", "event_line.h", "options.h", "simulator.h"}},
       {"client/examples/", {api}},
       // The checker shares nothing with what it checks but the messages.
       {checker + "shape/", {checker + "shape/"}},

@@ -54,6 +54,8 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
       {"client/include/collision/world.h", "\"idl/messages.pb.h\""},
       {"client/include/collision/world.h", "\"client/library/network/transport.h\""},
       {"client/examples/cpp/ten_lines.cc", "\"client/library/deadline.h\""},
+      {"client/examples/fast_dds/bus.cc", "\"idl/limits.h\""},
+      {"client/examples/fast_dds/bus.cc", "\"collision/world.h\""},
       {"client/library/world/world.cc", "  \"server/clock.h\""},
       {"client/library/world/world.cc", "<dds/dds.h>"},
       {"client/library/world/world.cc", "\"client/programs/shared/pace.h\""},

@@ -87,9 +87,10 @@ TEST(Programs, ContainNoTestTwice) {
   }
 }
 
-TEST(Programs, LeaveTestsOutOnlyForWantOfDataOrAssimp) {
+TEST(Programs, LeaveTestsOutOnlyForWantOfDataAssimpOrFastDds) {
   for (const std::string& condition : ThisBuild().conditions) {
-    EXPECT_TRUE(condition == "COLLISION_DATA_DIR" || condition == "collision_reads_mesh_files")
+    EXPECT_TRUE(condition == "COLLISION_DATA_DIR" || condition == "collision_reads_mesh_files" ||
+                condition == "collision_builds_fast_dds")
         << condition;
   }
   for (const std::string& file : ThisBuild().left_out) {
