@@ -27,7 +27,10 @@ const std::vector<std::string> kProfile = {"FASTRTPS_DEFAULT_PROFILES_FILE=" + k
 
 /// A revision of a contact, in the words of either monitor.
 struct Contact {
-  std::string pair, number, revision, status;
+  std::string pair;
+  int number = 0;
+  int revision = 0;
+  std::string status;
   std::int64_t begin_earliest = 0, begin_latest = 0, end_earliest = 0, end_latest = 0;
 
   auto operator<=>(const Contact&) const = default;
@@ -55,8 +58,9 @@ std::vector<Contact> ContactsIn(const std::string& output, const std::string& pa
   for (std::string line; std::getline(lines, line);) {
     std::smatch part;
     if (!std::regex_search(line, part, regex)) continue;
-    contacts.push_back({part[1].str() + " × " + part[2].str(), part[3], part[4], part[5],
-                        Instant(part[6]), Instant(part[7]), Instant(part[8]), Instant(part[9])});
+    contacts.push_back({part[1].str() + " × " + part[2].str(), std::stoi(part[3]),
+                        std::stoi(part[4]), part[5], Instant(part[6]), Instant(part[7]),
+                        Instant(part[8]), Instant(part[9])});
   }
   std::sort(contacts.begin(), contacts.end());
   return contacts;
@@ -158,7 +162,7 @@ TEST(FastDds, SimulatorAndMonitorOfTheExampleAgreeWithTheService) {
   EXPECT_TRUE(monitor.WaitForOutput("status: no service is heard")) << monitor.out();
   monitor.Signal(SIGINT);
   EXPECT_EQ(monitor.WaitForExit(), 0) << monitor.err();
-  EXPECT_EQ(RunToEnd(Command(build, TestWorld(kDomain), "alone"), kProfile).status, 1);
+  EXPECT_EQ(RunToEnd(Command(build, world, "alone"), kProfile).status, 1);
 }
 
 }  // namespace

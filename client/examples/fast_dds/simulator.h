@@ -25,8 +25,8 @@ class Simulator {
  private:
   using SteadyTime = std::chrono::steady_clock::time_point;
 
-  /// What one service has said. There are more than one where a standby takes over, and what it says
-  /// may be read before it counts.
+  /// What one service has said. There are more than one where a standby takes over, and what it
+  /// says may be read before it counts.
   struct Service {
     std::optional<std::int64_t> granted_ns;  ///< For this run of this program.
     std::uint64_t clearances = 0;            ///< Taken in up to this sequence.
