@@ -31,6 +31,25 @@ std::vector<std::string> TextsOf(const char* name, const char* const* texts, std
   return all;
 }
 
+Solid SolidOf(const collision_solid& given) {
+  if (given.kind < COLLISION_BALL || given.kind > COLLISION_CONE) {
+    throw std::invalid_argument("kind: " + std::to_string(given.kind) +
+                                ", allowed: COLLISION_BALL to COLLISION_CONE");
+  }
+  Solid solid{.kind = static_cast<Solid::Kind>(given.kind),
+              .half_extents_m = VectorOf(given.half_extents_m),
+              .rounding_m = given.rounding_m,
+              .position_m = VectorOf(given.position_m)};
+  if (given.points > 0) Require("points_m", given.points_m);
+  for (std::size_t i = 0; i < given.points; ++i) {
+    const double* point = given.points_m + 3 * i;
+    solid.points_m.push_back({point[0], point[1], point[2]});
+  }
+  const Quaternion orientation = QuaternionOf(given.orientation);
+  if (orientation != Quaternion{}) solid.orientation = orientation;
+  return solid;
+}
+
 }  // namespace
 
 collision_world_options DefaultWorldOptions() {
@@ -59,6 +78,12 @@ collision_agent_description DefaultDescription() {
   description.angular_acceleration_max_rad_s2 = description.speed_max_m_s = kNotDeclared;
   description.time_step_s = kNotDeclared;
   return description;
+}
+
+collision_geometry DefaultGeometry() {
+  collision_geometry geometry{};
+  geometry.struct_size = sizeof geometry;
+  return geometry;
 }
 
 collision_state DefaultState() {
@@ -145,23 +170,23 @@ AgentId FromC(const collision_agent_id& id) {
   return {id.simulator, id.run, id.slot, id.generation};
 }
 
-Solid FromC(const collision_solid& given) {
-  if (given.kind < COLLISION_BALL || given.kind > COLLISION_CONE) {
-    throw std::invalid_argument("kind: " + std::to_string(given.kind) +
-                                ", allowed: COLLISION_BALL to COLLISION_CONE");
+Geometry FromC(const collision_geometry& given) {
+  if (given.vertices > 0) Require("vertices_m", given.vertices_m);
+  if (given.triangles > 0) Require("indices", given.indices);
+  if (given.solids_count > 0) Require("solids", given.solids);
+  Geometry geometry;
+  for (std::size_t i = 0; i < given.vertices; ++i) {
+    const double* vertex = given.vertices_m + 3 * i;
+    geometry.triangles.vertices_m.push_back({vertex[0], vertex[1], vertex[2]});
   }
-  Solid solid{.kind = static_cast<Solid::Kind>(given.kind),
-              .half_extents_m = VectorOf(given.half_extents_m),
-              .rounding_m = given.rounding_m,
-              .position_m = VectorOf(given.position_m)};
-  if (given.points > 0) Require("points_m", given.points_m);
-  for (std::size_t i = 0; i < given.points; ++i) {
-    const double* point = given.points_m + 3 * i;
-    solid.points_m.push_back({point[0], point[1], point[2]});
+  for (std::size_t i = 0; i < given.triangles; ++i) {
+    const std::uint32_t* corners = given.indices + 3 * i;
+    geometry.triangles.indices.push_back({corners[0], corners[1], corners[2]});
   }
-  const Quaternion orientation = QuaternionOf(given.orientation);
-  if (orientation != Quaternion{}) solid.orientation = orientation;
-  return solid;
+  for (std::size_t i = 0; i < given.solids_count; ++i) {
+    geometry.solids.push_back(SolidOf(given.solids[i]));
+  }
+  return geometry;
 }
 
 }  // namespace collision::client::c

@@ -25,6 +25,7 @@ collision_world_options DefaultWorldOptions();
 collision_monitor_options DefaultMonitorOptions();
 collision_agent_description DefaultDescription();
 collision_state DefaultState();
+collision_geometry DefaultGeometry();
 
 /// Puts the first `size` bytes of `value`, whose struct_size becomes that, into `to`.
 template <class Struct>
@@ -56,6 +57,6 @@ MonitorOptions FromC(const collision_monitor_options& options);
 AgentDescription FromC(const collision_agent_description& description);
 State FromC(const collision_state& state);
 AgentId FromC(const collision_agent_id& id);
-Solid FromC(const collision_solid& solid);
+Geometry FromC(const collision_geometry& geometry);
 
 }  // namespace collision::client::c

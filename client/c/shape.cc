@@ -8,26 +8,16 @@ using namespace collision::client;
 using c::Guarded;
 using c::Require;
 
-collision_result collision_shape_create(const double* vertices_m, size_t vertices,
-                                        const uint32_t* indices, size_t triangles,
-                                        const collision_solid* solids, size_t solids_count,
+void collision_geometry_init(collision_geometry* geometry, size_t size) {
+  c::Initialize(c::DefaultGeometry(), geometry, size);
+}
+
+collision_result collision_shape_create(const collision_geometry* geometry,
                                         collision_shape** shape) {
   return Guarded([&] {
     Require("shape", shape);
-    if (vertices > 0) Require("vertices_m", vertices_m);
-    if (triangles > 0) Require("indices", indices);
-    if (solids_count > 0) Require("solids", solids);
-    Geometry geometry;
-    for (std::size_t i = 0; i < vertices; ++i) {
-      const double* vertex = vertices_m + 3 * i;
-      geometry.triangles.vertices_m.push_back({vertex[0], vertex[1], vertex[2]});
-    }
-    for (std::size_t i = 0; i < triangles; ++i) {
-      const std::uint32_t* corners = indices + 3 * i;
-      geometry.triangles.indices.push_back({corners[0], corners[1], corners[2]});
-    }
-    for (std::size_t i = 0; i < solids_count; ++i) geometry.solids.push_back(c::FromC(solids[i]));
-    *shape = new collision_shape{Shape::Make(std::move(geometry))};
+    *shape = new collision_shape{
+        Shape::Make(c::FromC(c::Given("geometry", c::DefaultGeometry(), geometry)))};
     return COLLISION_OK;
   });
 }

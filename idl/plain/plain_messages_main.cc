@@ -21,7 +21,7 @@ using google::protobuf::FileDescriptor;
 using google::protobuf::OneofDescriptor;
 
 /// A template line in which @ is the field's name, $ its type, and # its place in a oneof.
-std::string Filled(std::string text, const std::string& name, const std::string& type,
+std::string Filled(const std::string& text, const std::string& name, const std::string& type,
                    const std::string& place = "") {
   std::string filled;
   for (const char c : text) {
@@ -142,7 +142,8 @@ std::string OneofText(const OneofDescriptor& oneof) {
         "  $* mutable_@() { return has_@() ? std::get_if<#>(&ONE_) : &ONE_.emplace<#>(); }\n",
         field.name(), TypeOf(field), std::to_string(i + 1));
   }
-  std::string name = oneof.name(), upper = name;
+  const std::string& name = oneof.name();
+  std::string upper = name;
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   std::string type = name;
   type[0] = upper[0];

@@ -115,6 +115,23 @@ void LogStart(const v1::Config& config, const ClaimOptions& claim, bool has_jour
                config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerEvaluation(config));
 }
 
+/// All but what gives up.
+SignalActions ActionsOf(Daemon* daemon, SignalRequests* requests, Bus* bus) {
+  return {.stop = [daemon] { daemon->Stop(); },
+          .patience = kStepPatience,
+          .give_up = nullptr,
+          .reload =
+              [requests, bus](pid_t asker) {
+                requests->AskToReload(asker);
+                bus->Wake();
+              },
+          .dump =
+              [requests, bus] {
+                requests->AskToDump();
+                bus->Wake();
+              }};
+}
+
 std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   SystemClock clock([&bus] { bus.Wake(); });
   RecordingWriter* const recorder = parts.recorder;
@@ -139,20 +156,11 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
   SignalRequests requests(
       Reloader(config, std::move(parts.load_config)), [&daemon] { return daemon.StateLines(); },
       &service_manager);
-  const SignalWatcher signals(
-      {.stop = [&daemon] { daemon.Stop(); },
-       .patience = kStepPatience,
-       .give_up = [recorder, quarantine = parts.quarantine] { EndInTheStep(recorder, quarantine); },
-       .reload =
-           [&](pid_t asker) {
-             requests.AskToReload(asker);
-             bus.Wake();
-           },
-       .dump =
-           [&] {
-             requests.AskToDump();
-             bus.Wake();
-           }});
+  SignalActions actions = ActionsOf(&daemon, &requests, &bus);
+  actions.give_up = [recorder, quarantine = parts.quarantine] {
+    EndInTheStep(recorder, quarantine);
+  };
+  const SignalWatcher signals(std::move(actions));
   LogStart(config, parts.claim, has_journal);
   WaitForWallClock(config, signals, &service_manager);
   bool ready = false;

@@ -126,18 +126,32 @@ static void check_nulls(void) {
   collision_monitor_close(NULL);
 }
 
+static collision_result made(const double* vertices_m, size_t vertices, size_t triangles,
+                             const collision_solid* solid, collision_shape** shape) {
+  static const uint32_t indices[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  collision_geometry geometry;
+  collision_geometry_init(&geometry, sizeof geometry);
+  geometry.vertices_m = vertices_m;
+  geometry.vertices = vertices;
+  geometry.indices = triangles > 0 ? indices : NULL;
+  geometry.triangles = triangles;
+  geometry.solids = solid;
+  geometry.solids_count = solid == NULL ? 0 : 1;
+  return collision_shape_create(&geometry, shape);
+}
+
 static void check_shapes(void) {
   /* A tetrahedron, its outside where the corners run anticlockwise. */
   const double vertices_m[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-  const uint32_t indices[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
   const double points_m[] = {1, 0, 0, -1, 0, 0, 0, 2, 0, 0, 0, 1};
+  collision_geometry geometry;
   collision_solid solid;
   collision_shape* shape = NULL;
   collision_shape* other = NULL;
-  REQUIRE(collision_shape_create(vertices_m, 4, indices, 4, NULL, 0, &shape) == COLLISION_OK);
+  REQUIRE(made(vertices_m, 4, 4, NULL, &shape) == COLLISION_OK);
   CHECK(collision_shape_closed(shape) == 1);
   CHECK(collision_shape_radius_m(shape) >= 1 && collision_shape_radius_m(shape) < 1.000001);
-  REQUIRE(collision_shape_create(vertices_m, 4, indices, 3, NULL, 0, &other) == COLLISION_OK);
+  REQUIRE(made(vertices_m, 4, 3, NULL, &other) == COLLISION_OK);
   CHECK(collision_shape_closed(other) == 0);
   collision_shape_destroy(other);
   other = NULL;
@@ -147,19 +161,22 @@ static void check_shapes(void) {
   solid.points_m = points_m;
   solid.points = 4;
   solid.rounding_m = 0.5;
-  REQUIRE(collision_shape_create(NULL, 0, NULL, 0, &solid, 1, &other) == COLLISION_OK);
+  REQUIRE(made(NULL, 0, 0, &solid, &other) == COLLISION_OK);
   CHECK(fabs(collision_shape_radius_m(other) - 2.5) < 1e-6);
   collision_shape_destroy(other);
   other = NULL;
 
-  CHECK(collision_shape_create(vertices_m, 4, indices, 4, NULL, 0, NULL) == COLLISION_INVALID);
-  CHECK(collision_shape_create(NULL, 4, indices, 4, NULL, 0, &other) == COLLISION_INVALID);
-  CHECK(collision_shape_create(NULL, 0, NULL, 0, NULL, 0, &other) == COLLISION_INVALID);
+  CHECK(made(vertices_m, 4, 4, NULL, NULL) == COLLISION_INVALID && says("shape: null"));
+  CHECK(made(NULL, 4, 4, NULL, &other) == COLLISION_INVALID && says("vertices_m: null"));
+  CHECK(made(NULL, 0, 0, NULL, &other) == COLLISION_INVALID);
+  CHECK(collision_shape_create(NULL, &other) == COLLISION_INVALID && says("geometry: null"));
+  memset(&geometry, 0, sizeof geometry);
+  CHECK(collision_shape_create(&geometry, &other) == COLLISION_INVALID && says("struct_size"));
+  collision_geometry_init(NULL, 100);
   solid.kind = 99;
-  CHECK(collision_shape_create(NULL, 0, NULL, 0, &solid, 1, &other) == COLLISION_INVALID);
-  CHECK(says("kind: 99"));
+  CHECK(made(NULL, 0, 0, &solid, &other) == COLLISION_INVALID && says("kind: 99"));
   solid.kind = COLLISION_BOX; /* A box has no points. */
-  CHECK(collision_shape_create(NULL, 0, NULL, 0, &solid, 1, &other) == COLLISION_INVALID);
+  CHECK(made(NULL, 0, 0, &solid, &other) == COLLISION_INVALID);
   CHECK(other == NULL);
   CHECK(collision_shape_radius_m(NULL) == 0 && collision_shape_closed(NULL) == 0);
   collision_shape_destroy(shape);
@@ -319,7 +336,7 @@ static void part_meeting(void) {
   memset(&solid, 0, sizeof solid);
   solid.kind = COLLISION_BALL;
   solid.rounding_m = 0.5;
-  REQUIRE(collision_shape_create(NULL, 0, NULL, 0, &solid, 1, &shape) == COLLISION_OK);
+  REQUIRE(made(NULL, 0, 0, &solid, &shape) == COLLISION_OK);
   ada.tags = bob.tags = &tag;
   ada.tags_count = bob.tags_count = 1;
   bob.shape = shape;

@@ -87,6 +87,17 @@ typedef struct collision_solid {
 /** The connection of one simulator. */
 typedef struct collision_world collision_world;
 
+/** What a shape is made of: triangles, solids, or both. Limits as in collision/shape.h. */
+typedef struct collision_geometry {
+  uint32_t struct_size;
+  const double* vertices_m; /**< x, y, z of each. */
+  size_t vertices;
+  const uint32_t* indices; /**< Three of each triangle: anticlockwise, seen from outside. */
+  size_t triangles;
+  const collision_solid* solids;
+  size_t solids_count;
+} collision_geometry;
+
 /** How a simulator connects to its world. */
 typedef struct collision_world_options {
   uint32_t struct_size;

@@ -46,12 +46,8 @@ COLLISION_C_API const char* collision_version(void);
 
 /* ---- Shapes ---- */
 
-/** Of triangles, solids, or both: `vertices` times x, y, z; `triangles` times three indices, of
- * which the outside is where the corners run anticlockwise. Limits as in collision/shape.h. */
-COLLISION_C_API collision_result collision_shape_create(const double* vertices_m, size_t vertices,
-                                                        const uint32_t* indices, size_t triangles,
-                                                        const collision_solid* solids,
-                                                        size_t solids_count,
+/** Degenerate triangles are dropped. */
+COLLISION_C_API collision_result collision_shape_create(const collision_geometry* geometry,
                                                         collision_shape** shape);
 /** Agents keep what they use of it. NULL: nothing happens. */
 COLLISION_C_API void collision_shape_destroy(collision_shape* shape);
@@ -64,6 +60,7 @@ COLLISION_C_API int collision_shape_closed(const collision_shape* shape);
 
 /** The members that this library knows of the first `size` bytes get their defaults. NULL: nothing
  * happens. */
+COLLISION_C_API void collision_geometry_init(collision_geometry* geometry, size_t size);
 COLLISION_C_API void collision_world_options_init(collision_world_options* options, size_t size);
 COLLISION_C_API void collision_agent_description_init(collision_agent_description* description,
                                                       size_t size);

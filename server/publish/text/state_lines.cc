@@ -59,7 +59,8 @@ std::vector<std::string> StateLines(const v1::ServiceStatus& status, const World
     lines[0] = "the status cannot be printed";
   }
   std::size_t agents = 0;
-  for (const auto& [id, simulator] : world.simulators()) {
+  for (const auto& one : world.simulators()) {
+    const Simulator& simulator = one.second;
     simulator.agents().ForEachSlot([&](std::uint32_t slot) {
       const Agent* agent = simulator.agents().Find(slot);
       if (agent == nullptr || ++agents > agents_max) return;
