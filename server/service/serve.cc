@@ -132,6 +132,25 @@ SignalActions ActionsOf(Daemon* daemon, SignalRequests* requests, Bus* bus) {
               }};
 }
 
+/// It has left the world to another service, for which it is to stand by.
+bool StartsAfresh(const Daemon& daemon, const ClaimOptions& claim, bool stopped) {
+  return daemon.claim().phase() == ClaimPhase::kYielded && claim.stands_by && !stopped;
+}
+
+/// What was to be kept, and is not; nullopt: nothing.
+std::optional<int> FailureAtTheEnd(const v1::Config& config, const Daemon& daemon,
+                                   const RecordingWriter* recorder) {
+  const bool needs_recording = config.on_recording_failure() == v1::Config::END;
+  if (needs_recording && recorder && !recorder->error().empty()) {
+    return Fail(kExitFile, recorder->error() +
+                               " (on_recording_failure is END; GO_ON serves without a recording)");
+  }
+  if (config.on_state_failure() == v1::Config::END && !daemon.state_failure().empty()) {
+    return Fail(kExitFile, "state_dir: " + daemon.state_failure() + kGoOnInstead);
+  }
+  return std::nullopt;
+}
+
 std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   SystemClock clock([&bus] { bus.Wake(); });
   RecordingWriter* const recorder = parts.recorder;
@@ -175,26 +194,19 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
     if (service_manager.WantsStatus(now)) service_manager.Tell(daemon.StatusLine(), now);
     status.StepIsOver(now);
   }
-  const bool yields = daemon.claim().phase() == ClaimPhase::kYielded;
-  const bool starts_afresh = yields && parts.claim.stands_by && !signals.stopped();
+  const bool starts_afresh = StartsAfresh(daemon, parts.claim, signals.stopped());
   if (!starts_afresh) service_manager.Stopping();
   LogFingerprint(daemon);
-  const bool needs_recording = config.on_recording_failure() == v1::Config::END;
-  if (needs_recording && recorder && !recorder->error().empty()) {
-    return Fail(kExitFile, recorder->error() +
-                               " (on_recording_failure is END; GO_ON serves without a recording)");
-  }
-  if (config.on_state_failure() == v1::Config::END && !daemon.state_failure().empty()) {
-    return Fail(kExitFile, "state_dir: " + daemon.state_failure() + kGoOnInstead);
-  }
+  if (const auto failed = FailureAtTheEnd(config, daemon, recorder)) return failed;
   if (starts_afresh) {
     spdlog::warn("{}: starts afresh, to stand by", daemon.claim().why());
     return std::nullopt;
   }
-  if (yields && !signals.stopped()) {
+  if (signals.stopped()) return kExitOk;
+  if (daemon.claim().phase() == ClaimPhase::kYielded) {
     return Fail(kExitOccupied, "world \"" + config.world() + "\": " + daemon.claim().why());
   }
-  return signals.stopped() ? kExitOk : Fail(kExitUnavailable, "DDS has ended");
+  return Fail(kExitUnavailable, "DDS has ended");
 }
 
 }  // namespace
