@@ -342,7 +342,10 @@ Instant World::LatestAllowed(const Simulator& simulator) const {
 }
 
 StampRules World::RulesForState(const Simulator& simulator, bool admitted) const {
-  StampRules rules{.earliest = wall_time_.earliest_stamp(), .latest = LatestAllowed(simulator)};
+  // Beside the service in force, which judges it: its clocks may come later than its states.
+  const bool judged_elsewhere = simulated_ && stands_by_;
+  StampRules rules{.earliest = wall_time_.earliest_stamp(),
+                   .latest = judged_elsewhere ? Instant::Never() : LatestAllowed(simulator)};
   const std::optional<Instant>& clock = simulator.time().clock();
   if (admitted && clock) rules.discontinuity_from = *clock;
   return rules;

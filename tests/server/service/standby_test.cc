@@ -364,5 +364,15 @@ TEST_F(OneBesideAnotherTest, AFloodOfOneTakesAnEighthOfWhatIsKept) {
   EXPECT_EQ(daemon_.counter("states_received"), taken) << "kept until its round";
 }
 
+// Goal:   of a simulator that is many steps ahead a standby refuses no state, also where it cannot
+//         keep all of them until their round: the service in force has granted that time.
+TEST_F(OneBesideAnotherTest, WhatIsAheadIsNotRefused) {
+  for (int step = 1; step <= 20000; ++step) {
+    daemon_.Step({From(2, other_.StateOf(0, step), "beta")});
+  }
+  EXPECT_EQ(daemon_.counter("rejected_future_stamp"), 0u);
+  EXPECT_GT(daemon_.counter("states_received"), 0u) << "more than may wait";
+}
+
 }  // namespace
 }  // namespace collision::server
