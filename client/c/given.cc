@@ -7,6 +7,12 @@ namespace collision::client::c {
 namespace {
 
 constexpr double kNotDeclared = std::numeric_limits<double>::quiet_NaN();
+// More than the library takes, and no more than memory holds: it names its own limits.
+constexpr std::size_t kTagsMax = 64;
+constexpr std::size_t kPointsMax = 2'000'000;
+constexpr std::size_t kTrianglesMax = 10'000'000;
+constexpr std::size_t kSolidsMax = 200'000;
+
 constexpr std::uint32_t kDomainOfEnvironment = std::numeric_limits<std::uint32_t>::max();
 
 Vector3 VectorOf(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
@@ -21,8 +27,17 @@ std::optional<double> Declared(double value) {
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
+/// An array of so many elements, of which there can be at most `most`.
+void RequireArray(const char* name, const void* array, std::size_t count, std::size_t most) {
+  if (count > 0) Require(name, array);
+  if (count <= most) return;
+  throw std::invalid_argument(std::string(name) + ": " + std::to_string(count) +
+                              " elements, allowed: 0 to " + std::to_string(most));
+}
+
 std::vector<std::string> TextsOf(const char* name, const char* const* texts, std::size_t count) {
-  if (count > 0) Require(name, texts);
+  constexpr std::size_t kTextsMax = 64;
+  RequireArray(name, texts, count, kTextsMax);
   std::vector<std::string> all;
   for (std::size_t i = 0; i < count; ++i) {
     Require(name, texts[i]);
@@ -40,7 +55,7 @@ Solid SolidOf(const collision_solid& given) {
               .half_extents_m = VectorOf(given.half_extents_m),
               .rounding_m = given.rounding_m,
               .position_m = VectorOf(given.position_m)};
-  if (given.points > 0) Require("points_m", given.points_m);
+  RequireArray("points_m", given.points_m, given.points, kPointsMax);
   for (std::size_t i = 0; i < given.points; ++i) {
     const double* point = given.points_m + 3 * i;
     solid.points_m.push_back({point[0], point[1], point[2]});
@@ -51,6 +66,11 @@ Solid SolidOf(const collision_solid& given) {
 }
 
 }  // namespace
+
+void RequireSize(std::size_t size) {
+  if (size >= sizeof(std::uint64_t)) return;
+  throw std::invalid_argument("size: " + std::to_string(size) + ", allowed: that of the structure");
+}
 
 collision_world_options DefaultWorldOptions() {
   const WorldOptions defaults{.world = "default", .domain = 0};
@@ -137,7 +157,7 @@ AgentDescription FromC(const collision_agent_description& given) {
   description.meets_in_assembly =
       TextsOf("meets_in_assembly", given.meets_in_assembly, given.meets_in_assembly_count);
   description.never_meets = TextsOf("never_meets", given.never_meets, given.never_meets_count);
-  if (given.tags_count > 0) Require("tags", given.tags);
+  RequireArray("tags", given.tags, given.tags_count, kTagsMax);
   for (std::size_t i = 0; i < given.tags_count; ++i) {
     description.tags.push_back({TextOf(given.tags[i].key), TextOf(given.tags[i].value)});
   }
@@ -171,9 +191,9 @@ AgentId FromC(const collision_agent_id& id) {
 }
 
 Geometry FromC(const collision_geometry& given) {
-  if (given.vertices > 0) Require("vertices_m", given.vertices_m);
-  if (given.triangles > 0) Require("indices", given.indices);
-  if (given.solids_count > 0) Require("solids", given.solids);
+  RequireArray("vertices_m", given.vertices_m, given.vertices, 3 * kTrianglesMax);
+  RequireArray("indices", given.indices, given.triangles, kTrianglesMax);
+  RequireArray("solids", given.solids, given.solids_count, kSolidsMax);
   Geometry geometry;
   for (std::size_t i = 0; i < given.vertices; ++i) {
     const double* vertex = given.vertices_m + 3 * i;

@@ -41,15 +41,20 @@ void Initialize(Struct value, Struct* to, std::size_t size) noexcept {
 template <class Struct>
 Struct Given(const char* name, Struct defaults, const Struct* given) {
   Require(name, given);
-  if (given->struct_size < sizeof given->struct_size) {
+  // No member is longer, and each begins at a multiple of its length: none is read in part.
+  constexpr std::size_t kMember = 8;
+  const std::size_t whole = given->struct_size / kMember * kMember;
+  if (whole == 0) {
     throw std::invalid_argument(std::string(name) + ": struct_size " +
                                 std::to_string(given->struct_size) +
                                 ", allowed: what its ..._init() sets");
   }
-  std::memcpy(static_cast<void*>(&defaults), given,
-              std::min<std::size_t>(given->struct_size, sizeof defaults));
+  std::memcpy(static_cast<void*>(&defaults), given, std::min(whole, sizeof defaults));
   return defaults;
 }
+
+/// Throws std::invalid_argument unless a program's structure holds something.
+void RequireSize(std::size_t size);
 
 /// Each throws std::invalid_argument with the member, its value and what is allowed.
 WorldOptions FromC(const collision_world_options& options);

@@ -161,7 +161,11 @@ collision_result collision_world_advance_to(collision_world* world, int64_t cloc
                                             int64_t timeout_ns) {
   return With(world, [&](collision_world& one) {
     const Advance advance = one.connected.AdvanceTo(clock_ns, std::chrono::nanoseconds(timeout_ns));
-    return advance == Advance::kReached ? COLLISION_OK : COLLISION_TIMEOUT;
+    if (advance == Advance::kReached) return COLLISION_OK;
+    // Nothing would ever be granted.
+    const std::string ended = one.connected.ended_because();
+    if (!ended.empty()) throw std::logic_error("the run has ended: " + ended);
+    return COLLISION_TIMEOUT;
   });
 }
 
@@ -219,6 +223,7 @@ collision_result collision_world_traffic(const collision_world* world, collision
   return Guarded([&] {
     Require("world", world);
     Require("traffic", traffic);
+    c::RequireSize(size);
     const Traffic& sent = world->connected.traffic();
     c::Initialize(
         collision_traffic{0, sent.states_set, sent.states_sent, sent.samples_sent, sent.bytes_sent},
@@ -286,6 +291,7 @@ collision_result collision_world_clearances(collision_world* world, const collis
     if (count == 0) return COLLISION_OK;
     Require("agents", agents);
     Require("clearances", clearances);
+    c::RequireSize(size);
     for (std::size_t i = 0; i < count; ++i) one.agents.At(agents[i]);
     auto* bytes = reinterpret_cast<unsigned char*>(clearances);
     for (std::size_t i = 0; i < count; ++i) {

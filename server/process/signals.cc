@@ -2,14 +2,20 @@
 
 #include <pthread.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <ctime>
+#include <fstream>
 #include <initializer_list>
+#include <string>
 #include <utility>
 
 namespace collision::server {
 namespace {
+
+constexpr std::chrono::seconds kAskAgainAfter{1};
 
 sigset_t SetOf(std::initializer_list<int> signals) {
   sigset_t set;
@@ -76,20 +82,38 @@ bool SignalWatcher::EndsInTime() const {
   return true;
 }
 
+/// A service blocks its signals, to wait for them: so SIGHUP ends no other process by mistake.
+bool BlocksItsSignals(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (!line.starts_with("SigBlk:")) continue;
+    const std::uint64_t blocked =
+        std::strtoull(line.c_str() + line.find_first_of("\t ") + 1, nullptr, 16);
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1}) {
+      if ((blocked >> (signal - 1) & 1) == 0) return false;
+    }
+    return true;
+  }
+  return false;
+}
+
 ReloadAnswer AskToReload(pid_t service, std::chrono::nanoseconds patience) {
   const sigset_t answers = SetOf({SIGUSR1, SIGUSR2});
   pthread_sigmask(SIG_BLOCK, &answers, nullptr);
-  if (sigqueue(service, SIGHUP, {}) != 0) return ReloadAnswer::kNoProcess;
   const auto end = std::chrono::steady_clock::now() + patience;
-  for (;;) {
-    const std::chrono::nanoseconds left = end - std::chrono::steady_clock::now();
-    if (left.count() <= 0) return ReloadAnswer::kNoAnswer;
-    const timespec wait = TimeSpecOf(left);
+  do {
+    if (kill(service, 0) != 0) return ReloadAnswer::kNoProcess;
+    if (!BlocksItsSignals(service)) return ReloadAnswer::kNoService;
+    // Of two that ask at once the service may see one: each asks until it is answered.
+    if (sigqueue(service, SIGHUP, {}) != 0) return ReloadAnswer::kNoProcess;
+    const timespec wait = TimeSpecOf(std::min<std::chrono::nanoseconds>(patience, kAskAgainAfter));
     siginfo_t info{};
     const int signal = sigtimedwait(&answers, &info, &wait);
-    if (signal < 0 || info.si_pid != service) continue;
-    return signal == SIGUSR1 ? ReloadAnswer::kDone : ReloadAnswer::kRefused;
-  }
+    if (signal > 0 && info.si_pid == service) {
+      return signal == SIGUSR1 ? ReloadAnswer::kDone : ReloadAnswer::kRefused;
+    }
+  } while (std::chrono::steady_clock::now() < end);
+  return ReloadAnswer::kNoAnswer;
 }
 
 void AnswerReload(pid_t asker, bool done) {

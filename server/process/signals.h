@@ -55,10 +55,16 @@ class SignalWatcher {
 };
 
 /// How a request to reload has ended.
-enum class ReloadAnswer { kDone, kRefused, kNoProcess, kNoAnswer };
+enum class ReloadAnswer {
+  kDone,
+  kRefused,
+  kNoProcess,  ///< It is not there, or belongs to another user.
+  kNoService,  ///< It does not wait for signals as a SignalWatcher does; it was sent none.
+  kNoAnswer
+};
 
-/// Sends SIGHUP to a service, another process, and waits for its answer. Requires that nothing else
-/// in this process waits for SIGUSR1 and SIGUSR2, which are the answers.
+/// Sends SIGHUP to a service, another process, and waits for its answer; again each second.
+/// Requires that nothing else in this process waits for SIGUSR1 and SIGUSR2, which are the answers.
 ReloadAnswer AskToReload(pid_t service, std::chrono::nanoseconds patience);
 
 /// Answers AskToReload(). Does nothing for an asker of 0, or one that has gone.

@@ -170,6 +170,21 @@ static void check_shapes(void) {
   CHECK(made(NULL, 4, 4, NULL, &other) == COLLISION_INVALID && says("vertices_m: null"));
   CHECK(made(NULL, 0, 0, NULL, &other) == COLLISION_INVALID);
   CHECK(collision_shape_create(NULL, &other) == COLLISION_INVALID && says("geometry: null"));
+  collision_geometry_init(&geometry, sizeof geometry);
+  geometry.vertices_m = vertices_m;
+  geometry.vertices = SIZE_MAX;
+  CHECK(collision_shape_create(&geometry, &other) == COLLISION_INVALID && says("vertices_m: 1844"));
+  geometry.vertices = 4;
+  geometry.indices = (const uint32_t*)vertices_m;
+  geometry.triangles = SIZE_MAX / 2;
+  CHECK(collision_shape_create(&geometry, &other) == COLLISION_INVALID && says("indices: "));
+  geometry.triangles = 0;
+  geometry.solids = &solid;
+  geometry.solids_count = SIZE_MAX / 4;
+  CHECK(collision_shape_create(&geometry, &other) == COLLISION_INVALID && says("solids: "));
+  solid.points = SIZE_MAX;
+  CHECK(made(NULL, 0, 0, &solid, &other) == COLLISION_INVALID && says("points_m: "));
+  solid.points = 4;
   memset(&geometry, 0, sizeof geometry);
   CHECK(collision_shape_create(&geometry, &other) == COLLISION_INVALID && says("struct_size"));
   collision_geometry_init(NULL, 100);
@@ -199,6 +214,14 @@ static void check_options(void) {
   options.simulator = "alpha";
   options.domain = 1000;
   CHECK(collision_world_connect(&options, &world) == COLLISION_INVALID && says("domain: 1000"));
+  options.domain = domain;
+  options.levels = &options.simulator;
+  options.levels_count = SIZE_MAX;
+  CHECK(collision_world_connect(&options, &world) == COLLISION_INVALID && says("levels: "));
+  options.levels_count = 0;
+  /* A size that ends within a member: nothing is read in part. */
+  options.struct_size = 21;
+  CHECK(collision_world_connect(&options, &world) == COLLISION_INVALID && says("simulator"));
   CHECK(world == NULL);
   collision_monitor_options_init(&reads, sizeof reads);
   CHECK(reads.service == 1 && reads.simulators == 0);
@@ -379,6 +402,13 @@ static void part_meeting(void) {
   CHECK(collision_world_join(world, 0, &t_ns) == COLLISION_MISUSED);
   CHECK(collision_world_clearances(world, agents, clearances, sizeof clearances[0], 2) ==
         COLLISION_OK);
+  CHECK(collision_world_clearances(world, agents, clearances, 0, 2) == COLLISION_INVALID);
+  CHECK(collision_world_traffic(world, &traffic, 0) == COLLISION_INVALID && says("size: 0"));
+  wrong.tags = &tag;
+  wrong.tags_count = SIZE_MAX;
+  wrong.radius_m = 1;
+  CHECK(collision_world_describe_agent(world, agents[0], &wrong) == COLLISION_INVALID);
+  CHECK(says("tags: "));
   CHECK(clearances[0].struct_size == sizeof clearances[0] && clearances[1].cause != NULL);
   CHECK(clearances[0].clear_until_ns > 0 && clearances[1].expires_ns == COLLISION_NEVER);
 
@@ -466,6 +496,8 @@ static void part_trouble(void) {
   REQUIRE(collision_world_ended_because(ada) != NULL);
   CHECK(strstr(collision_world_ended_because(ada), "evicted") != NULL);
   CHECK(collision_world_ended_because(bob) == NULL);
+  CHECK(collision_world_advance_to(ada, 1000 * SECOND, SECOND / 10) == COLLISION_MISUSED);
+  CHECK(says("the run has ended: "));
   collision_world_close(ada);
 
   printf("stop the service\n");

@@ -65,6 +65,9 @@ TEST(Monitor, WrongWordsAreAUsageError) {
   EXPECT_EQ(RunToEnd({Program("collisionctl"), "no-such-word"}).status, 2);
   EXPECT_EQ(RunToEnd({Program("collisionctl"), "status", "--no-such-option"}).status, 2);
   EXPECT_EQ(RunToEnd({Program("collisionctl"), "suggest-bounds"}).status, 2);
+  const Outcome domain = RunToEnd({Program("collisionctl"), "health"}, {"COLLISION_DOMAIN=abc"});
+  EXPECT_EQ(domain.status, 2);
+  EXPECT_TRUE(Contains(domain.err, "COLLISION_DOMAIN: abc, allowed: 0 to 230")) << domain.err;
   EXPECT_EQ(RunToEnd({Program("collisionctl"), "suggest-bounds", "no such file"}).status, 66);
 }
 

@@ -3,6 +3,7 @@
 // Method: the real program, asked by its own --reload and by signals.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -67,6 +68,14 @@ TEST_F(ReloadTest, TakesWhatCanChangeAndOpensTheLogAnew) {
   EXPECT_TRUE(Contains(refused.err, "keeps its configuration")) << refused.err;
   EXPECT_TRUE(Contains(Log(), folder_.Path("settings") + ":5: agents_max")) << Log();
   EXPECT_TRUE(Contains(Log(), "the configuration stays as it was"));
+
+  // What cannot be read again, or would block, is refused.
+  std::filesystem::remove(folder_.Path("settings"));
+  ASSERT_EQ(mkfifo(folder_.Path("settings").c_str(), 0600), 0);
+  EXPECT_EQ(Reload().status, 78);
+  EXPECT_TRUE(Contains(Log(), "not a regular file: it cannot be read again")) << Log();
+  std::filesystem::remove(folder_.Path("settings"));
+  EXPECT_EQ(Reload().status, 78);
 
   // As logrotate does it.
   Write("info");

@@ -80,7 +80,7 @@ COLLISION_C_API collision_result collision_world_join(collision_world* world, in
 /** Sends what is staged up to `clock_ns`, and that clock. */
 COLLISION_C_API collision_result collision_world_publish(collision_world* world, int64_t clock_ns);
 /** Lock-step: waits until time is granted up to there, then does the same. COLLISION_TIMEOUT: call
- * again. */
+ * again. COLLISION_MISUSED: the run has ended (collision_world_ended_because()). */
 COLLISION_C_API collision_result collision_world_advance_to(collision_world* world,
                                                             int64_t clock_ns, int64_t timeout_ns);
 /** Lock-step: no step follows. */

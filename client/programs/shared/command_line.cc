@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 
 #include "client/library/identity/library_version.h"
@@ -123,12 +124,17 @@ int RunProgram(const char* program, const std::function<int()>& run) {
   }
 }
 
+void NameAsCalled(CLI::App* app, const char* path) {
+  app->name(std::filesystem::path(path).filename().string());
+}
+
 void AddVersion(CLI::App* app) {
   app->set_version_flag("--version", app->get_name() + " " + LibraryVersion(),
                         "Print the version and end");
 }
 
 std::optional<int> ParseCommandLine(CLI::App* app, int argc, char** argv) {
+  NameAsCalled(app, argv[0]);
   AddVersion(app);
   try {
     app->parse(argc, argv);

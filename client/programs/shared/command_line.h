@@ -68,6 +68,10 @@ inline constexpr double kRunSecondsMax = 1e8;
 /// RefusedError kExitRefused, BadInput kExitBadData, any other kExitUnavailable.
 int RunProgram(const char* program, const std::function<int()>& run);
 
+/// Installed programs have other names than those of the build: help and version show the one by
+/// which the program was called.
+void NameAsCalled(CLI::App* app, const char* path);
+
 /// Adds --version.
 void AddVersion(CLI::App* app);
 

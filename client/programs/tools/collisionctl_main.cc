@@ -422,4 +422,12 @@ int Main(int argc, char** argv) {
 }  // namespace
 }  // namespace collision::client
 
-int main(int argc, char** argv) { return collision::client::Main(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return collision::client::Main(argc, argv);
+  } catch (const std::invalid_argument& error) {
+    // COLLISION_DOMAIN is no domain.
+    std::cerr << "collisionctl: " << error.what() << '\n';
+    return collision::client::kExitUsage;
+  }
+}

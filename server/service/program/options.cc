@@ -79,11 +79,13 @@ void Define(CLI::App* app, Options* options) {
   auto* calibrate = app->add_flag(
       "--calibrate", options->calibrate,
       "Measure work_units_per_us on this machine, print the line for the configuration, and end");
-  auto* reload = app->add_option("--reload", options->reload,
-                                 "Let the service of this process read its configuration anew, and "
-                                 "open its log file anew; end when it has, with 78 if it refuses")
-                     ->type_name("PID")
-                     ->check(CLI::Range(2, std::numeric_limits<std::int32_t>::max(), "PID"));
+  auto* reload =
+      app->add_option("--reload", options->reload,
+                      "Let the service of this process read its configuration anew, and "
+                      "open its log file anew; end when it has (within 60 s), with 78 if "
+                      "it refuses")
+          ->type_name("PID")
+          ->check(CLI::Range(2, std::numeric_limits<std::int32_t>::max(), "PID"));
   app->set_version_flag("--version", std::string("collisiond ") + Version(),
                         "Print the version and end");
   auto* world =

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -155,6 +156,17 @@ ConfigResult Load(const Options& options) {
   return loaded;
 }
 
+/// The same while the service runs. A pipe has been read, and may block.
+ConfigResult LoadAgain(const Options& options) {
+  std::error_code error;
+  const std::string& file = options.config_file;
+  if (file.empty() || std::filesystem::is_regular_file(file, error)) return Load(options);
+  ConfigResult refused;
+  refused.errors = {file + ": " + (error ? error.message() : "not a regular file") +
+                    ": it cannot be read again"};
+  return refused;
+}
+
 /// `again`: it has left the world to another service, and is to stand by for that one.
 std::optional<int> ServeOnce(const v1::Config& config, const Options& options, bool again) {
   std::shared_ptr<TreeCache> cache;
@@ -211,7 +223,7 @@ std::optional<int> ServeOnce(const v1::Config& config, const Options& options, b
                 .quarantine = quarantine.get(),
                 .claim = claim,
                 .load_config = [options] {
-                  ConfigResult loaded = Load(options);
+                  ConfigResult loaded = LoadAgain(options);
                   TakeFoldersOfSystemd(&loaded.config);
                   return loaded;
                 }});
@@ -237,6 +249,8 @@ int ReloadOther(std::int32_t service) {
                   process + " keeps its configuration, for the reason that its log says");
     case ReloadAnswer::kNoProcess:
       return Fail(kExitUnavailable, process + " is not there, or belongs to another user");
+    case ReloadAnswer::kNoService:
+      return Fail(kExitUnavailable, process + " is no collisiond that serves");
     case ReloadAnswer::kNoAnswer:
       return Fail(kExitUnavailable, process + " has not answered within 60 s");
   }

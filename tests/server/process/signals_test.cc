@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <future>
+#include <vector>
 
 namespace collision::server {
 namespace {
@@ -95,6 +96,50 @@ TEST(Signals, AReloadIsAnswered) {
     EXPECT_EQ(WEXITSTATUS(status), static_cast<int>(answer));
     EXPECT_EQ(AskToReload(child, kEver), ReloadAnswer::kNoProcess);
   }
+}
+
+// Goal:   of several that ask at once each is answered, though equal signals are one.
+TEST(Signals, EachOfSeveralAskersIsAnswered) {
+  PrepareSignals();
+  SignalWatcher watcher({.stop = [] {},
+                         .patience = kEver,
+                         .give_up = [] { FAIL(); },
+                         .reload = [](pid_t asker) { AnswerReload(asker, true); }});
+  const pid_t service = getpid();
+  std::vector<pid_t> children;
+  for (int i = 0; i < 8; ++i) {
+    children.push_back(fork());
+    if (children.back() == 0) {
+      _exit(static_cast<int>(AskToReload(service, std::chrono::minutes(4))));
+    }
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_EQ(WEXITSTATUS(status), static_cast<int>(ReloadAnswer::kDone));
+  }
+}
+
+// Goal:   a process that SIGHUP would end is sent none.
+TEST(Signals, WhoIsNoServiceIsLeftAlone) {
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_UNBLOCK, &all, nullptr);
+    close(ready[1]);
+    for (;;) pause();
+  }
+  close(ready[1]);
+  char none = 0;
+  ASSERT_EQ(read(ready[0], &none, 1), 0) << "the end, once the child has unblocked its signals";
+  close(ready[0]);
+  EXPECT_EQ(AskToReload(child, kEver), ReloadAnswer::kNoService);
+  EXPECT_EQ(waitpid(child, nullptr, WNOHANG), 0) << "it lives";
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
 }
 
 }  // namespace
