@@ -83,6 +83,16 @@ TEST(Container, NamesTheLineOfAMistakeInItsFile) {
   EXPECT_TRUE(Contains(outcome.err, "agents_maximum")) << outcome.err;
 }
 
+// The image has the programs of the build, and not its folder.
+TEST(Container, ProgramsNeedNoLibraryOfTheBuild) {
+  for (const char* program : {"collisiond", "collisionctl", "ten-lines", "drone-swarm", "spaceship",
+                              "scene-runner", "trajectory-player"}) {
+    const Outcome libraries = RunToEnd({"ldd", Program(program)});
+    EXPECT_EQ(libraries.status, 0) << libraries.err;
+    EXPECT_FALSE(Contains(libraries.out, "libcollision")) << program << "\n" << libraries.out;
+  }
+}
+
 TEST(Container, IsHealthyAsLongAsItServes) {
   const std::string domain = "71";
   const Container container("container-test", domain);
