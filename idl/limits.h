@@ -69,7 +69,7 @@ inline constexpr std::int64_t kWatchPeriodMax = 3'600'000'000'000;  ///< [ns]
 inline constexpr std::int64_t kWatchLeaseMax = 60'000'000'000;      ///< [ns]
 
 /// The revision of the wire that this program speaks, as in collision.idl.
-inline constexpr std::uint32_t kWireRevision = 2;
+inline constexpr std::uint32_t kWireRevision = 3;
 
 // Histories [samples].
 
@@ -118,6 +118,11 @@ inline constexpr int kStatusSimulatorsMax = 64;         ///< ServiceStatus::simu
 inline constexpr int kStatusCountersMax = 96;           ///< ServiceStatus::counters.
 inline constexpr int kStatusLeftOutMax = 32;            ///< ServiceStatus::left_out.
 inline constexpr std::size_t kStatusLeftOutTextMax = 160;
+inline constexpr std::size_t kStatusBuildMax = 96;
+inline constexpr int kStatusHistogramsMax = 8;
+inline constexpr int kHistogramCountsMax = 48;           ///< Histogram::counts.
+inline constexpr int kSimulatorQuotasMax = 8;            ///< SimulatorStatus::quotas.
+inline constexpr std::size_t kStatusRefusedWhyMax = 96;  ///< SimulatorStatus::refused_why.
 inline constexpr std::size_t kStatusBroadPhaseMax = 64;
 inline constexpr std::size_t kStatusBroadPhaseWhyMax = 256;
 

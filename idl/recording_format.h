@@ -7,7 +7,8 @@
 
 namespace collision::wire {
 
-/// The format of recordings: messages of wire revision 2 (recording.proto). Formats 1 and 2 hold
+/// The format of recordings: messages of wire revision 2 or 3, which are alike in all that
+/// is recorded (recording.proto). Formats 1 and 2 hold
 /// older ones, which only programs of their time read.
 inline constexpr unsigned kRecordingFormat = 3;
 

@@ -210,11 +210,16 @@ FIELDS(AgentBreach,
        VALUE(incarnation) VALUE(generation) TEXT(field) VALUE(declared) VALUE(seen) VALUE(from_ns)
        VALUE(at_ns) VALUE(count))
 
+FIELDS(QuotaUse, TEXT(resource) VALUE(used) VALUE(most))
+
 FIELDS(SimulatorStatus,
        VALUE(simulator_id) VALUE(run) TEXT(name) VALUE(alive) VALUE(clock_ns)
-       VALUE(granted_until_ns) VALUE(agents) VALUE(states) VALUE(rejected) MESSAGE(clock_offset))
+       VALUE(granted_until_ns) VALUE(agents) VALUE(states) VALUE(rejected) MESSAGE(clock_offset)
+       LIST(quotas, wire::kSimulatorQuotasMax) VALUE(refused_now) TEXT(refused_why))
 
 FIELDS(Counter, TEXT(name) VALUE(value))
+
+FIELDS(Histogram, TEXT(name) LIST(counts, wire::kHistogramCountsMax))
 
 FIELDS(OperatorCommand, VALUE(command_id) VALUE(kind) TEXT(simulator))
 
@@ -228,7 +233,9 @@ FIELDS(ServiceStatus,
        LIST(counters, wire::kStatusCountersMax) TEXT(broad_phase) TEXT(broad_phase_why)
        LIST(left_out, wire::kStatusLeftOutMax) LIST(extensions, wire::kStatusExtensionsMax)
        VALUE(followers)
-       VALUE(configuration) TEXT(frame) TEXT(epoch_utc))
+       VALUE(configuration) TEXT(frame) TEXT(epoch_utc) TEXT(build) VALUE(started_ns)
+       VALUE(uptime_ns) VALUE(cpu_us) VALUE(memory_bytes)
+       LIST(histograms, wire::kStatusHistogramsMax))
 // clang-format on
 
 }  // namespace

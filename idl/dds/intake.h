@@ -11,7 +11,7 @@
 #include "idl/dds/inbox/inbox.h"
 #include "idl/dds/inbox/senders.h"
 #include "idl/dds/topics.h"
-#include "idl/dds/writer_watch.h"
+#include "idl/dds/watch/writer_watch.h"
 #include "idl/messages.pb.h"
 
 namespace collision::dds {

@@ -12,7 +12,8 @@
 #include "idl/dds/intake.h"
 #include "idl/dds/text.h"
 #include "idl/dds/waker.h"
-#include "idl/dds/writer_watch.h"
+#include "idl/dds/watch/misfit_watch.h"
+#include "idl/dds/watch/writer_watch.h"
 #include "idl/identity.h"
 #include "idl/limits.h"
 
@@ -71,8 +72,8 @@ dds::Partitions PartitionsOf(const DdsSessionOptions& options) {
   return partitions;
 }
 
-dds_entity_t CreateParticipant(std::uint32_t domain) {
-  const dds_entity_t participant = Check(dds_create_participant(domain, nullptr, nullptr),
+dds_entity_t CreateParticipant(std::uint32_t domain, const dds_listener_t* listener) {
+  const dds_entity_t participant = Check(dds_create_participant(domain, nullptr, listener),
                                          "DDS domain " + std::to_string(domain));
   // For the whole process, and only for writers made after it: samples gather until Flush().
   dds_write_set_batch(true);
@@ -85,7 +86,7 @@ class DdsSession::Implementation {
  public:
   explicit Implementation(const DdsSessionOptions& options)
       : inbox_(options.sender_limits),
-        participant_(CreateParticipant(Checked(options).domain)),
+        participant_(CreateParticipant(Checked(options).domain, misfits_.listener())),
         guard_(Check(dds_create_guardcondition(participant_.get()), "DDS guard condition")),
         endpoints_(dds::MakeEndpoints(participant_.get(), PartitionsOf(options),
                                       options.lease.count(), watch_.Listen(guard_),
@@ -234,6 +235,7 @@ class DdsSession::Implementation {
   }
 
   bool TakeRelief() { return inbox_.TakeRelief(); }
+  std::chrono::nanoseconds waited() const { return std::chrono::nanoseconds(inbox_.waited_ns()); }
 
   bool service_present() const {
     const dds_entity_t reader =
@@ -290,8 +292,9 @@ class DdsSession::Implementation {
     return &inbox_;
   }
 
-  // Watch and inbox first: the readers call them until they end with the participant. The waker
+  // Watches and inbox first: the readers call them until they end with the participant. The waker
   // last: its thread uses the guard, which lives in the participant.
+  dds::MisfitWatch misfits_;
   dds::WriterWatch watch_;
   dds::Inbox inbox_;
   const dds::Entity participant_;
@@ -360,6 +363,7 @@ std::vector<DdsIgnored> DdsSession::TakeIgnored() { return implementation_->Take
 
 std::vector<DdsLoss> DdsSession::losses() const { return implementation_->losses(); }
 
+std::chrono::nanoseconds DdsSession::waited() const { return implementation_->waited(); }
 bool DdsSession::TakeRelief() { return implementation_->TakeRelief(); }
 std::uint32_t DdsSession::earliest_readers() const { return implementation_->earliest_readers(); }
 

@@ -144,6 +144,9 @@ class DdsSession {
   /// The programs that lose samples, or of which so many wait that newer ones replace older ones.
   std::vector<DdsLoss> losses() const;
 
+  /// How long the oldest sample of a simulator had waited that the last Receive() took.
+  std::chrono::nanoseconds waited() const;
+
   /// True once after much has waited and is gone: memory can be given back to the system.
   bool TakeRelief();
 

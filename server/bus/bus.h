@@ -57,6 +57,9 @@ class Bus {
   /// Who read the earliest intersection, which is computed for them alone, when Receive() returned.
   virtual std::uint32_t earliest_readers() const { return 1; }
 
+  /// How long the oldest message of a simulator had waited here that Receive() appended last.
+  virtual std::chrono::nanoseconds waited() const { return std::chrono::nanoseconds(0); }
+
   /// What the network did not deliver or accept, for the status: Counters of collision.idl, each
   /// name once.
   virtual std::vector<v1::Counter> network_counters() const { return {}; }

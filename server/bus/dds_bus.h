@@ -48,6 +48,7 @@ class DdsBus final : public Bus {
   /// The programs that are ignored from now on, and what Cyclone DDS said meanwhile.
   std::vector<std::string> TakeWarnings() override;
   std::uint32_t earliest_readers() const override { return earliest_readers_; }
+  std::chrono::nanoseconds waited() const override { return session_.waited(); }
 
   std::vector<std::string> flooding() const override;
 

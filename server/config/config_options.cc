@@ -102,6 +102,8 @@ constexpr ConfigOption kOptions[] = {
      "The least severe lines that are logged."},
     {"log_file", "none", "", "", "a path of at most 4096 printable ASCII characters, or empty",
      "\"\"", "Where the log goes, appended. Empty: standard error."},
+    {"log_format", "none", "", "", "TEXT or JSON", "TEXT",
+     "JSON: each line of the log is an object with time (UTC), level and message."},
     {"temporal_resolution_s", "s", "0.000001", "10", "", "0.016666666666666666",
      "A pair whose earliest possible intersection is nearer than this goes to the narrow phase, at "
      "most once per this time. Contacts shorter than it are found all the same."},

@@ -15,11 +15,16 @@ namespace collision::server {
 /// Whether standard error is the journal's, as JOURNAL_STREAM says. Source: systemd.exec(5).
 bool ErrorsGoToTheJournal();
 
-/// Sends spdlog's default logger to standard error, or to `file` (appending) if it is not empty.
-/// The journal gets priorities in place of a time and a level, which it has.
-/// `level`: trace, debug, info, warn, error, critical or off. Throws spdlog::spdlog_ex if the file
-/// cannot be opened.
-void StartLogging(const std::string& level, const std::string& file);
+struct LogOptions {
+  std::string level = "info";  ///< trace, debug, info, warn, error, critical or off.
+  std::string file = {};       ///< Empty: standard error.
+  bool json = false;           ///< A line is {"time": ..., "level": ..., "message": ...}.
+};
+
+/// Sends spdlog's default logger to standard error, or to the file (appending). The journal gets
+/// priorities in place of a time and a level, which it has; before a line of JSON, too. Throws
+/// spdlog::spdlog_ex if the file cannot be opened.
+void StartLogging(const LogOptions& options);
 
 /// Writes "matter: text", at most once per kMatterPeriod and matter; lines in between are held back
 /// and counted, and the next line says how many. A matter is a short constant phrase ("input

@@ -41,10 +41,12 @@ void Set(const Lowering& lowering, v1::AgentClearance* wire) {
 
 }  // namespace
 
-Publisher::Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* bus)
+Publisher::Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* bus,
+                     ContactObserver* observer)
     : claim_(*claim),
       hello_(HelloOf(config)),
       bus_(*bus),
+      observer_(observer),
       screening_(config),
       earliest_period_ns_(ToNanoseconds(config.earliest_period_s())),
       resolution_s_(config.temporal_resolution_s()) {
@@ -157,7 +159,7 @@ void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& even
       of.inherited.Keep(telling.event, of.labels.Of(telling.event));
     }
   }
-  if (claim_.speaks() && !world.simulated()) bus_.Flush();
+  if (claim_.speaks() && !world.simulated()) Flush();
 }
 
 void Publisher::PublishScreening(const std::vector<detection::CollisionEvent>& events,
@@ -242,9 +244,15 @@ void Publisher::PublishContact(v1::CollisionEvent event, std::uint32_t epoch) {
   event.set_contacts_sequence(++events_.contacts);
   *event.mutable_stamp() = NextStamp();
   event.mutable_stamp()->set_epoch(epoch);
+  if (observer_ != nullptr) observer_->TakeContact(event);
   v1::Output output;
   *output.mutable_collision_event() = std::move(event);
   bus_.Publish(output);
+}
+
+void Publisher::Flush() {
+  bus_.Flush();
+  if (observer_ != nullptr) observer_->ContactsHaveLeft();
 }
 
 EventCounters Publisher::event_counters() const {

@@ -29,6 +29,14 @@ struct EventCounters {
   std::uint64_t forecasts_withheld = 0;  ///< EventFilter::withheld().
 };
 
+/// Is told of each contact that is published, and when those so far have left for the network.
+class ContactObserver {
+ public:
+  virtual ~ContactObserver() = default;
+  virtual void TakeContact(const v1::CollisionEvent& contact) = 0;
+  virtual void ContactsHaveLeft() = 0;
+};
+
 /// Every sample carries (service, term, sequence); the sequence counts all samples. One thread.
 class Publisher {
  public:
@@ -36,8 +44,12 @@ class Publisher {
   /// are one apart at most.
   static constexpr int kRisesWait = 2;
 
-  /// `claim`: who publishes. It and the bus outlive the publisher.
-  Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* bus);
+  /// `claim`: who publishes. It, the bus and the observer (null: none) outlive the publisher.
+  Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* bus,
+            ContactObserver* observer = nullptr);
+
+  /// Hands what has been published to the network.
+  void Flush();
 
   /// Publishes the chunks that are marked as changed, each complete, and takes the marks. Chunk 0,
   /// which carries the grant, comes last: a simulator that waits for its grant in it then has the
@@ -145,6 +157,7 @@ class Publisher {
   const ServiceClaim& claim_;
   v1::ServiceHello hello_;  ///< As published last.
   Bus& bus_;
+  ContactObserver* const observer_;
   std::uint32_t epoch_ = 1;
   std::uint64_t sequence_ = 0;
   std::uint64_t newest_forecast_ = 0;  ///< Its sequence; 0: there was none.

@@ -27,7 +27,41 @@ void Count(const std::string& name, std::uint64_t value, v1::ServiceStatus* stat
   counter.set_value(value);
 }
 
-void AddSimulators(const World& world, v1::ServiceStatus* status) {
+/// What a simulator may have as things are, beside what it has.
+struct QuotaOf {
+  Resource resource;
+  std::uint64_t used, most;
+};
+
+std::vector<QuotaOf> QuotasOf(const StatusSources& sources, std::uint64_t simulator) {
+  const ShapeCounters shapes = sources.shapes.counters();
+  const std::pair<Resource, std::uint64_t> used_by_all[] = {
+      {Resource::kAgents, sources.detectors.agents()},
+      {Resource::kShapes, shapes.places},
+      {Resource::kShapeBytes, shapes.bytes},
+      {Resource::kTreeBytes, shapes.tree_bytes}};
+  const SimulatorQuotas& quotas = sources.world.quotas();
+  std::vector<QuotaOf> all;
+  for (const auto& [resource, of_all] : used_by_all) {
+    const std::uint64_t used = quotas.Used(simulator, resource);
+    const std::uint64_t limit = LimitOf(sources.config, resource);
+    const std::uint64_t free = limit - std::min(limit, of_all);
+    if (used > 0) all.push_back({resource, used, used + quotas.RoomFor(simulator, resource, free)});
+  }
+  return all;
+}
+
+/// "OUT_OF_RANGE: states[2].velocity_m_s"; empty: nothing is refused.
+std::string RefusalText(const StandingRefusals& refusals) {
+  if (refusals.listed().empty()) return "";
+  const Refusal& one = refusals.listed().begin()->second;
+  const std::string reason =
+      v1::RejectionReason_Name(one.reason).substr(std::string("REJECTED_").size());
+  return (reason + ": " + one.field).substr(0, wire::kStatusRefusedWhyMax);
+}
+
+void AddSimulators(const StatusSources& sources, v1::ServiceStatus* status) {
+  const World& world = sources.world;
   std::uint64_t unlisted = 0;
   for (const auto& [id, simulator] : world.simulators()) {
     if (simulator.has_left()) continue;
@@ -48,6 +82,14 @@ void AddSimulators(const World& world, v1::ServiceStatus* status) {
     const OffsetBracket offset = simulator.sender_clock().offset(world.monotonic_ns());
     wire.mutable_clock_offset()->set_earliest_ns(offset.lower_ns);
     wire.mutable_clock_offset()->set_latest_ns(offset.upper_ns);
+    for (const QuotaOf& quota : QuotasOf(sources, id)) {
+      v1::QuotaUse& use = *wire.add_quotas();
+      use.set_resource(Name(quota.resource));
+      use.set_used(quota.used);
+      use.set_most(quota.most);
+    }
+    wire.set_refused_now(static_cast<std::uint32_t>(simulator.refusals().count()));
+    wire.set_refused_why(RefusalText(simulator.refusals()));
   }
   Count("simulators_unlisted", unlisted, status);
   Count("simulators_removed_silent", world.ended_runs().count(EndCause::kSilent), status);
@@ -188,22 +230,10 @@ void AddWaiting(const StatusSources& sources, v1::ServiceStatus* status) {
 /// What simulators have used up of their quotas, or nearly so.
 void AddQuotas(const StatusSources& sources, v1::ServiceStatus* status) {
   constexpr double kNearlyUsedUp = 0.8;
-  const ShapeCounters shapes = sources.shapes.counters();
-  const std::pair<Resource, std::uint64_t> used_by_all[] = {
-      {Resource::kAgents, sources.detectors.agents()},
-      {Resource::kShapes, shapes.places},
-      {Resource::kShapeBytes, shapes.bytes},
-      {Resource::kTreeBytes, shapes.tree_bytes}};
-  const SimulatorQuotas& quotas = sources.world.quotas();
   std::vector<std::string> texts;
   for (const auto& [id, simulator] : sources.world.simulators()) {
-    for (const auto& [resource, of_all] : used_by_all) {
-      const std::uint64_t limit = LimitOf(sources.config, resource);
-      const std::uint64_t used = quotas.Used(id, resource);
-      const std::uint64_t most =
-          used + quotas.RoomFor(id, resource, limit - std::min(limit, of_all));
-      if (used == 0 || static_cast<double>(used) < kNearlyUsedUp * static_cast<double>(most))
-        continue;
+    for (const auto& [resource, used, most] : QuotasOf(sources, id)) {
+      if (static_cast<double>(used) < kNearlyUsedUp * static_cast<double>(most)) continue;
       texts.push_back(fmt::format("{}: {} {} of {}", simulator.name(), Name(resource), used, most));
     }
   }
@@ -245,7 +275,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   status.set_configuration(sources.configuration);
   status.set_pairs_tracked(
       static_cast<std::uint32_t>(sources.detectors.contacts().pairs_tracked()));
-  AddSimulators(sources.world, &status);
+  AddSimulators(sources, &status);
   AddIntake(sources, &status);
   AddShapes(sources.shapes.counters(), &status);
   AddDetection(sources, &status);
@@ -279,6 +309,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   AddNames("flooding", sources.bus.flooding(), &status);
   AddNames("unfit", sources.intake.Unfit(), &status);
   for (const v1::KeyValue& extension : sources.extensions) *status.add_extensions() = extension;
+  sources.measurements.AddTo(&status);
   return status;
 }
 

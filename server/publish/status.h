@@ -9,6 +9,7 @@
 #include "idl/config.pb.h"
 #include "server/bus/bus.h"
 #include "server/intake/intake.h"
+#include "server/publish/measurements.h"
 #include "server/publish/publisher.h"
 #include "server/shapes/shape_store.h"
 #include "server/world/rejections.h"
@@ -38,6 +39,7 @@ struct StatusSources {
   const Publisher& publisher;
   const Bus& bus;
   const StepCounters& steps;
+  const Measurements& measurements;
   std::uint64_t queries_per_second = 0;       ///< Of the detector, since the last status.
   std::uint64_t configuration = 0;            ///< ConfigurationDigest().
   std::vector<v1::KeyValue> extensions = {};  ///< Further ones.

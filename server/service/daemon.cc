@@ -25,9 +25,10 @@
 #include "server/recording/step_recorder.h"
 #include "server/service/detection_step.h"
 #include "server/service/operator_commands.h"
+#include "server/service/reports/contact_report.h"
+#include "server/service/reports/service_report.h"
+#include "server/service/reports/silence_report.h"
 #include "server/service/roster_journal.h"
-#include "server/service/service_report.h"
-#include "server/service/silence_report.h"
 #include "server/service/step_limits.h"
 #include "server/shapes/shape_store.h"
 
@@ -45,6 +46,7 @@ class Daemon::Implementation {
         claim_(parts.claim),
         services_(config_, claim_.instance(), std::move(parts.process)),
         progress_(std::move(parts.progress)),
+        measurements_(parts.meter),
         shape_builder_(parts.shape_builder
                            ? std::move(parts.shape_builder)
                            : std::make_unique<InlineShapeBuilder>(BuildOptionsOf(config_))),
@@ -54,7 +56,7 @@ class Daemon::Implementation {
         rejections_(config_.rejections_per_second_max(), &world_),
         intake_(config_, claim_.instance(), &world_, &detectors_, &rejections_, &shapes_),
         operators_(&world_, &intake_),
-        publisher_(config_, &claim_, &bus_),
+        publisher_(config_, &claim_, &bus_, &contacts_),
         schedule_(ToNanoseconds(config_.status_period_s())) {
     intake_.sender_clocks().SetServiceId(claim_.instance());
   }
@@ -65,6 +67,7 @@ class Daemon::Implementation {
     const bool waits = quarantine_ != nullptr && quarantine_->holds();
     const bool goes_on = waits || bus_.Receive(Timeout(), config_.inputs_per_batch_max(), &inputs);
     if (stopped_ || (!goes_on && inputs.empty())) return false;
+    measurements_.BeginStep(inputs.size(), bus_.waited());
     if (!bus_.recorded()) shape_builder_->AddFinished(&inputs);
     if (quarantine_ != nullptr) quarantine_->Screen(&inputs);
     SortBatch(&inputs);
@@ -144,7 +147,8 @@ class Daemon::Implementation {
     if (claim_.speaks()) PublishAnswers();
     if (claim_.phase() != ClaimPhase::kWaking && schedule_.Take(world_)) SendStatus();
     for (const std::uint64_t simulator : world_.TakeForgotten()) bus_.Forget(simulator);
-    bus_.Flush();
+    publisher_.Flush();
+    measurements_.EndStep();
     for (const std::string& line : bus_.TakeWarnings()) Log(spdlog::level::warn, "network", line);
 #ifndef NDEBUG
     world_.Validate();
@@ -322,7 +326,7 @@ class Daemon::Implementation {
   void TellProgress() {
     if (!progress_ || !progress_()) return;
     SendStatus();
-    bus_.Flush();
+    publisher_.Flush();
   }
 
   /// Publishes the rest of what a step has found; the events have left before its grants.
@@ -353,6 +357,7 @@ class Daemon::Implementation {
                        .publisher = publisher_,
                        .bus = bus_,
                        .steps = steps_,
+                       .measurements = measurements_,
                        .queries_per_second = query_rate_.Take(queries, world_.monotonic_ns()),
                        .configuration = services_.configuration(),
                        .extensions = Extensions()});
@@ -381,6 +386,8 @@ class Daemon::Implementation {
   ServiceClaim claim_;
   ServiceReport services_;
   const std::function<bool()> progress_;  ///< As in DaemonParts.
+  Measurements measurements_;
+  ContactReport contacts_{&measurements_, config_.clock().kind() != v1::Clock::REAL_TIME};
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   World world_;
   ShapeStore shapes_;

@@ -12,6 +12,7 @@
 #include "server/claim/journal.h"
 #include "server/claim/quarantine.h"
 #include "server/claim/service_claim.h"
+#include "server/process/process_meter.h"
 #include "server/publish/event_log.h"
 #include "server/shapes/shape_builder.h"
 
@@ -30,6 +31,7 @@ struct DaemonParts {
   Quarantine* quarantine = nullptr;  ///< Notes which message is applied, for the next start.
   std::string process = {};  ///< ProcessText(): its status shows it, and other services log it.
   ClaimOptions claim = {};   ///< By default it serves from the first step.
+  const ProcessMeter* meter = nullptr;  ///< For its status; null: no time is measured.
   /// Called while a step goes on, after each bounded piece of the detector's work. True: a status
   /// is published now, in the middle of the step. Decides nothing else.
   std::function<bool()> progress = nullptr;

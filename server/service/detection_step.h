@@ -9,7 +9,7 @@
 #include "server/intake/intake.h"
 #include "server/publish/publisher.h"
 #include "server/publish/status.h"
-#include "server/service/share_report.h"
+#include "server/service/reports/share_report.h"
 #include "server/world/world.h"
 
 namespace collision::server {

@@ -154,6 +154,7 @@ std::optional<int> FailureAtTheEnd(const v1::Config& config, const Daemon& daemo
 std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   SystemClock clock([&bus] { bus.Wake(); });
   RecordingWriter* const recorder = parts.recorder;
+  const ProcessMeter meter;
   const bool has_journal = parts.journal.journal != nullptr || parts.journal.open != nullptr;
   BuildOptions build = BuildOptionsOf(config);
   build.cache = std::move(parts.trees);
@@ -167,6 +168,7 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
        .quarantine = parts.quarantine,
        .process = ProcessText(),
        .claim = parts.claim,
+       .meter = &meter,
        .progress = [&] {
          const auto now = std::chrono::steady_clock::now();
          service_manager.Alive(now);

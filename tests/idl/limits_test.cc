@@ -54,6 +54,8 @@ TEST(Limits, LengthsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("KeyValue", "value"), wire::kExtensionValueMax);
   EXPECT_EQ(BoundOf("ServiceStatus", "broad_phase"), wire::kStatusBroadPhaseMax);
   EXPECT_EQ(BoundOf("ServiceStatus", "broad_phase_why"), wire::kStatusBroadPhaseWhyMax);
+  EXPECT_EQ(BoundOf("ServiceStatus", "build"), wire::kStatusBuildMax);
+  EXPECT_EQ(BoundOf("SimulatorStatus", "refused_why"), wire::kStatusRefusedWhyMax);
 }
 
 TEST(Limits, CountsAreTheBoundsOfTheIdl) {
@@ -63,6 +65,9 @@ TEST(Limits, CountsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("ServiceStatus", "simulators"), count(wire::kStatusSimulatorsMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "counters"), count(wire::kStatusCountersMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "left_out"), count(wire::kStatusLeftOutMax));
+  EXPECT_EQ(BoundOf("ServiceStatus", "histograms"), count(wire::kStatusHistogramsMax));
+  EXPECT_EQ(BoundOf("Histogram", "counts"), count(wire::kHistogramCountsMax));
+  EXPECT_EQ(BoundOf("SimulatorStatus", "quotas"), count(wire::kSimulatorQuotasMax));
   EXPECT_EQ(BoundOf("AgentDescription", "tags"), count(wire::kTagsMax));
   EXPECT_EQ(BoundOf("AgentLabel", "tags"), count(wire::kTagsMax));
   EXPECT_EQ(BoundOf("ServiceHello", "regions"), count(wire::kRegionsMax));

@@ -83,6 +83,8 @@ class Filler {
       Fill(reflection->AddMessage(message, field));
     } else if (field->cpp_type() == FieldDescriptor::CPPTYPE_UINT32) {
       reflection->AddUInt32(message, field, static_cast<std::uint32_t>(random_.Next()));
+    } else if (field->cpp_type() == FieldDescriptor::CPPTYPE_UINT64) {
+      reflection->AddUInt64(message, field, random_.Next());
     } else {
       reflection->AddString(message, field, RandomText(random_, random_.Below(20)));
     }

@@ -129,7 +129,7 @@ int main(int argc, char** argv) {
   app.add_option("--json", arguments.json, "write the table as JSON to this file");
   CLI11_PARSE(app, argc, argv);
   try {
-    collision::server::StartLogging("off", "");
+    collision::server::StartLogging({.level = "off"});
     return collision::server::Run(arguments);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "same-bits: %s\n", error.what());

@@ -56,6 +56,14 @@ TwoHosts::~TwoHosts() {
   for (const std::string& name : names_) RemoveNamespace(name);
 }
 
+void TwoHosts::LoseMulticast(int host) const {
+  const std::string rules =
+      "table netdev lost { chain in { type filter hook ingress device \"cable\" priority 0; "
+      "ip daddr 224.0.0.0/4 drop; }; }";
+  const Outcome outcome = RunToEnd(InNamespace(host == 0 ? names_[0] : names_[1], {"nft", rules}));
+  if (outcome.status != 0) throw std::runtime_error("nft: " + outcome.err);
+}
+
 void TwoHosts::Plug(bool in) const {
   Ip("-n " + names_[0] + (in ? " link set cable up" : " link set cable down"));
 }

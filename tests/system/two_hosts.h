@@ -29,6 +29,9 @@ class TwoHosts {
   /// The network namespace of host 0 or 1.
   const std::string& host(int index) const { return names_[index]; }
 
+  /// From here on what others send to groups does not arrive at this host.
+  void LoseMulticast(int host) const;
+
   /// Pulls the cable out, or puts it back.
   void Plug(bool in) const;
 

@@ -12,6 +12,7 @@
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/agents_watcher.h"
+#include "client/programs/tools/collisionctl/doctor/doctor.h"
 #include "client/programs/tools/collisionctl/events/event_printer.h"
 #include "client/programs/tools/collisionctl/examples.h"
 #include "client/programs/tools/collisionctl/health.h"
@@ -329,32 +330,19 @@ void AddExamples(CLI::App* app) {
   }
 }
 
-CLI::App* AddHealth(CLI::App* app, HealthOptions* health) {
-  CLI::App* command = app->add_subcommand(
-      "health", "For probes: one sentence, and 0 (well), 1 (trouble) or 2 (critical)");
-  command
-      ->add_option("--max-age", health->max_age_s,
-                   "Seconds within which a new status must come, 0.1 to 60")
-      ->check(Between(0.1, 60))
-      ->capture_default_str();
-  command
-      ->add_option("--require-simulators", health->simulators_required,
-                   "How many simulators must be alive, 0 to 1024")
-      ->check(WholeBetween(0, 1024))
-      ->capture_default_str();
-  return command;
-}
-
-int CheckHealth(const Options& options, HealthOptions health) {
+HealthOptions With(const Options& options, HealthOptions health) {
   health.world = options.monitor.world;
   health.domain = options.monitor.domain;
   health.json = options.json;
-  try {
-    return RunHealth(health);
-  } catch (const std::runtime_error& error) {
-    std::cout << "CRITICAL: " << error.what() << '\n';
-    return static_cast<int>(HealthLevel::kCritical);
-  }
+  return health;
+}
+
+DoctorOptions With(const Options& options, DoctorOptions doctor) {
+  doctor.world = options.monitor.world;
+  doctor.domain = options.monitor.domain;
+  doctor.timeout_s = options.timeout_s;
+  doctor.json = options.json;
+  return doctor;
 }
 
 int Operate(const Options& options, const v1::OperatorCommand& command) {
@@ -382,7 +370,9 @@ int Main(int argc, char** argv) {
   SuggestBoundsOptions bounds;
   const CLI::App* suggest_bounds = AddSuggestBoundsCommand(&app, &bounds);
   HealthOptions health;
-  const CLI::App* health_command = AddHealth(&app, &health);
+  const CLI::App* health_command = AddHealthCommand(&app, &health);
+  DoctorOptions doctor;
+  const CLI::App* doctor_command = AddDoctorCommand(&app, &doctor);
   AddExamples(&app);
   AddVersion(&app);
   try {
@@ -395,7 +385,8 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kExitOk : kExitUsage;
   }
-  if (health_command->parsed()) return CheckHealth(options, health);
+  if (health_command->parsed()) return RunHealth(With(options, health));
+  if (doctor_command->parsed()) return RunDoctor(With(options, doctor));
   if (sphere_tree->parsed()) {
     if (options.json) tree.report = "json";
     return RunSphereTree(tree);

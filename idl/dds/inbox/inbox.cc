@@ -110,7 +110,7 @@ dds_rhc* Inbox::MakeHistory(std::size_t topic, std::size_t depth, bool keeps_pla
 }
 
 void Inbox::Put(const History& history, const ddsi_writer_info& writer, ddsi_serdata* data) {
-  ArrivedSample sample{history.topic, SenderOf(writer.guid), writer.iid,
+  ArrivedSample sample{history.topic, SenderOf(writer.guid), writer.iid, Now(),
                        std::unique_ptr<ddsi_serdata, ReleaseSerdata>(ddsi_serdata_ref(data))};
   SampleFacts facts;
   facts.sender = sample.sender;
@@ -157,6 +157,10 @@ std::vector<ArrivedSample> Inbox::Take(std::size_t samples, std::size_t bytes) {
       size += std::min(bytes - size, ddsi_serdata_size(taken[i].data.get()) + kSampleOverhead);
     }
   } while (taken.size() > before && taken.size() < samples && size < bytes);
+  const std::int64_t now_ns = Now();
+  std::int64_t oldest_ns = now_ns;
+  for (const ArrivedSample& sample : taken) oldest_ns = std::min(oldest_ns, sample.arrived_ns);
+  waited_ns_ = now_ns - oldest_ns;
   return taken;
 }
 

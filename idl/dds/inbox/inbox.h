@@ -24,6 +24,7 @@ struct ArrivedSample {
   std::size_t topic = 0;     ///< As MakeHistory() was told.
   std::uint64_t sender = 0;  ///< SenderOf() its writer's participant.
   dds_instance_handle_t writer = 0;
+  std::int64_t arrived_ns = 0;  ///< Monotonic.
   std::unique_ptr<ddsi_serdata, ReleaseSerdata> data;
 
   bool has_data() const;  ///< Otherwise only its key is set.
@@ -69,6 +70,9 @@ class Inbox {
   /// As SenderQueues::Take(), with no more bytes than SenderQueues::AtOnce().
   std::vector<ArrivedSample> Take(std::size_t samples, std::size_t bytes);
 
+  /// How long the oldest of what the last Take() returned had waited [ns]; 0: it was empty.
+  std::int64_t waited_ns() const { return waited_ns_; }
+
   /// The writers whose first sample has arrived since the last call.
   std::vector<NewWriter> TakeNewWriters();
 
@@ -101,6 +105,8 @@ class Inbox {
   std::vector<NewWriter> new_writers_;
   std::vector<IgnoredSender> ignored_;
   std::size_t waiting_most_ = 0;  ///< Since the last relief [bytes].
+
+  std::int64_t waited_ns_ = 0;  ///< Of the thread that takes.
 };
 
 }  // namespace collision::dds

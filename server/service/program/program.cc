@@ -26,6 +26,7 @@
 #include "server/recording/replay.h"
 #include "server/service/daemon.h"
 #include "server/service/program/calibrate.h"
+#include "server/service/requests/reload.h"
 #include "server/service/serve.h"
 #include "server/shapes/tree_cache.h"
 #include "server/world/world.h"
@@ -288,7 +289,7 @@ int Replay(RecordingReader& reader) {
 }
 
 int Replay(const std::string& file, const std::string& log_level) {
-  StartLogging(log_level, "");  // not where the recorded run logged
+  StartLogging({.level = log_level});  // not where the recorded run logged
   std::unique_ptr<RecordingReader> reader;
   try {
     reader = std::make_unique<RecordingReader>(file);
@@ -321,7 +322,7 @@ int Run(const Options& options) {
   if (options.check_config) std::cout << options.config_file << ": ok\n";
   if (options.print_config || options.check_config) return kExitOk;
   try {
-    StartLogging(loaded.config.log_level(), loaded.config.log_file());
+    StartLogging(LogOptionsOf(loaded.config));
   } catch (const std::exception& error) {
     return Fail(kExitFile, std::string("log_file: ") + error.what());
   }

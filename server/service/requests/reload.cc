@@ -4,7 +4,13 @@
 
 namespace collision::server {
 
-bool CanChange(std::string_view path) { return path == "log_level" || path == "log_file"; }
+bool CanChange(std::string_view path) { return path.starts_with("log_"); }
+
+LogOptions LogOptionsOf(const v1::Config& config) {
+  return {.level = config.log_level(),
+          .file = config.log_file(),
+          .json = config.log_format() == v1::Config::JSON};
+}
 
 Reloaded Reloader::Reload() {
   Reloaded reloaded{.accepted = true};

@@ -8,12 +8,16 @@
 
 #include "idl/config.pb.h"
 #include "server/config/config.h"
+#include "server/process/logging.h"
 
 namespace collision::server {
 
 /// Whether a field can change while the service runs. Answers depend on all others: a recording,
 /// which holds the configuration of its start, is to give the same events.
 bool CanChange(std::string_view path);
+
+/// How a complete configuration wants the log, which is all that can change.
+LogOptions LogOptionsOf(const v1::Config& config);
 
 /// What came of it.
 struct Reloaded {

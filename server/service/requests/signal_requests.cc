@@ -57,7 +57,7 @@ bool SignalRequests::Reload() {
   }
   const v1::Config& config = reloader_.in_force();
   try {
-    StartLogging(config.log_level(), config.log_file());
+    StartLogging(LogOptionsOf(config));
   } catch (const std::exception& error) {
     spdlog::error("not reloaded: log_file: {}; the log stays where it was", error.what());
     return false;

@@ -26,6 +26,7 @@ std::string OtherValue(const ConfigOption& option) {
   if (option.path == "on_occupied") return "STAND_BY";
   if (option.path.ends_with("_failure")) return "END";
   if (option.path == "log_level") return "\"debug\"";
+  if (option.path == "log_format") return "JSON";
   if (option.least.empty()) return "\"other\"";
   return other(option.least, option.most);
 }

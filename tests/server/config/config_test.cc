@@ -308,6 +308,7 @@ std::string RandomValue(const ConfigOption& option, Random& random) {
   const bool seconds = option.unit == "s";
   if (option.path == "world") return "\"w" + std::to_string(random.Below(1000)) + "\"";
   if (option.path == "log_level") return "\"debug\"";
+  if (option.path == "log_format") return "JSON";
   if (option.path == "frame" || option.path == "epoch_utc") return "\"ENU 47.4 8.5\"";
   if (option.path == "log_file" || option.path.ends_with("_dir")) return "\"/a b\\\"\\\\\"";
   if (option.path == "clock.kind") return random.Chance(0.5) ? "REAL_TIME" : "LOCK_STEP";

@@ -83,11 +83,11 @@ TEST(MatterLimiter, BoundsTheNumberOfMatters) {
 TEST(Logging, WritesToTheFileFromTheLevelOn) {
   const std::string path = testing::TempDir() + "logging_test.log";
   std::ofstream(path) << "before\n";
-  StartLogging("warn", path);
+  StartLogging({.level = "warn", .file = path});
   Log(spdlog::level::info, "chatter", "unheard");
   for (int i = 0; i < 3; ++i) Log(spdlog::level::warn, "refused", "NaN");
   EndLogging();
-  StartLogging("info", "");
+  StartLogging({.level = "info"});
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   EXPECT_TRUE(text.str().starts_with("before\n"));
@@ -95,7 +95,25 @@ TEST(Logging, WritesToTheFileFromTheLevelOn) {
   EXPECT_NE(text.str().find("suppressed"), std::string::npos);
   EXPECT_EQ(text.str().find("unheard"), std::string::npos);
   std::remove(path.c_str());
-  EXPECT_THROW(StartLogging("info", "/dev/null/log"), spdlog::spdlog_ex);
+  EXPECT_THROW(StartLogging({.level = "info", .file = "/dev/null/log"}), spdlog::spdlog_ex);
+}
+
+// Goal:   a program reads each line of the log as JSON, whatever its text holds.
+TEST(Logging, WritesJson) {
+  const std::string path = testing::TempDir() + "logging_test.json";
+  std::remove(path.c_str());
+  StartLogging({.file = path, .json = true});
+  spdlog::warn("a \"quoted\" \\ text\nof two lines, \u00e9");
+  StartLogging({});
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  const std::string line = text.str();
+  EXPECT_TRUE(line.starts_with("{\"time\": \"2")) << line;
+  EXPECT_TRUE(
+      line.ends_with("Z\", \"level\": \"warning\", \"message\": \"a \\\"quoted\\\" "
+                     "\\\\ text\\u000aof two lines, \u00e9\"}\n"))
+      << line;
+  std::remove(path.c_str());
 }
 
 // Goal:   the journal gets priorities, and no times, which it has.
@@ -108,17 +126,17 @@ TEST(Logging, WritesPrioritiesToTheJournal) {
   fstat(STDERR_FILENO, &errors);
   const std::string stream = fmt::format("{}:{}", errors.st_dev, errors.st_ino);
   setenv("JOURNAL_STREAM", stream.c_str(), 1);
-  StartLogging("debug", "");
+  StartLogging({.level = "debug"});
   spdlog::debug("of no concern");
   spdlog::error("it fails");
   setenv("JOURNAL_STREAM", "0:0", 1);
-  StartLogging("info", "");
+  StartLogging({.level = "info"});
   spdlog::info("not the journal");
   unsetenv("JOURNAL_STREAM");
   std::fflush(stderr);
   dup2(before, STDERR_FILENO);
   close(before);
-  StartLogging("info", "");
+  StartLogging({.level = "info"});
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   EXPECT_TRUE(text.str().starts_with("<7>of no concern\n<3>it fails\n2")) << text.str();

@@ -151,12 +151,12 @@ TEST_F(ClockSkewTest, PromisesAboutItsAgentsAreVoidForBothAndItsCulpritIsNamed) 
 
 TEST_F(ClockSkewTest, TheLogNamesEachAndSaysWhatToDo) {
   const std::string path = testing::TempDir() + "clock_skew_test.log";
-  StartLogging("info", path);
+  StartLogging({.level = "info", .file = path});
   offset_ns_["alpha"] = offset_ns_["beta"] = -5 * kSecond;
   Tell(true);
   TellFor(3 * kSecond);
   EndLogging();
-  StartLogging("info", "");
+  StartLogging({.level = "info"});
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   std::remove(path.c_str());

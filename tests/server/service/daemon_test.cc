@@ -60,7 +60,7 @@ TEST(Daemon, WallClockFindsAContact) {
 //         die within a second, and in the status while it is waited for. So is a released one.
 TEST(Daemon, NamesTheDeadThatHoldUpTheWorld) {
   const std::string path = testing::TempDir() + "daemon_test.log";
-  StartLogging("info", path);
+  StartLogging({.level = "info", .file = path});
   v1::Config config = Simulated();
   config.mutable_clock()->set_on_silent_simulator(v1::Clock::RELEASE);
   ScriptedDaemon daemon(config);
@@ -84,7 +84,7 @@ TEST(Daemon, NamesTheDeadThatHoldUpTheWorld) {
   for (int step = 0; step < 10; ++step) daemon.Step({}, 1);
   EXPECT_EQ(waiting_for(), "");
   EndLogging();
-  StartLogging("info", "");
+  StartLogging({.level = "info"});
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   std::remove(path.c_str());

@@ -92,7 +92,7 @@ Served ServeOn(Bus& bus, std::shared_ptr<TreeStore> trees = nullptr) {
   const std::string log = testing::TempDir() + "serve_test.log." + std::to_string(getpid());
   const v1::Config config = CompleteConfig({});
   Served served;
-  StartLogging("critical", log);
+  StartLogging({.level = "critical", .file = log});
   PrepareSignals();
   {
     RecordingWriter recorder(recording, config);
@@ -100,7 +100,7 @@ Served ServeOn(Bus& bus, std::shared_ptr<TreeStore> trees = nullptr) {
         Serve(config, bus, {.recorder = &recorder, .trees = std::move(trees)}).value();
     EXPECT_EQ(recorder.error(), "");
   }
-  StartLogging("info", "");
+  StartLogging({.level = "info"});
   served.log = TakeFile(log);
   RecordingReader reader(recording);
   while (auto batch = reader.Next()) served.batches.push_back(std::move(*batch));
@@ -115,7 +115,7 @@ TEST(Serve, EndsInTheMiddleOfAStep) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const std::string path = testing::TempDir() + "serve_test.recording";
   const auto serve = [&path] {
-    StartLogging("info", "");
+    StartLogging({.level = "info"});
     PrepareSignals();
     const v1::Config config = CompleteConfig({});
     RecordingWriter recorder(path, config);

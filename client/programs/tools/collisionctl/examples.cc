@@ -13,6 +13,8 @@ constexpr const char* kIndent = "                                        ";
 constexpr Example kExamples[] = {
     {"status", "status                   whether all is well; else what is wrong, and what to do"},
     {"status", "status --all             every simulator, the broad phase and why, all counters"},
+    {"doctor", "doctor                   why a world is silent, and what to type next"},
+    {"doctor", "doctor --host 10.0.0.1   likewise; that host is asked by unicast, too"},
     {"health", "health                   for probes: one sentence, and exit code 0, 1 or 2"},
     {"health",
      "health --require-simulators 3 --max-age 2\n"

@@ -4,9 +4,11 @@
 #include <chrono>
 #include <iostream>
 #include <map>
+#include <stdexcept>
 
 #include "client/library/deadline.h"
 #include "client/library/network/dds_transport.h"
+#include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/json/json_writer.h"
 #include "client/programs/tools/collisionctl/status/verdict.h"
@@ -91,11 +93,31 @@ std::string HealthJson(const Health& health) {
       .Json();
 }
 
+CLI::App* AddHealthCommand(CLI::App* app, HealthOptions* options) {
+  CLI::App* command = app->add_subcommand(
+      "health", "For probes: one sentence, and 0 (well), 1 (trouble) or 2 (critical)");
+  command
+      ->add_option("--max-age", options->max_age_s,
+                   "Seconds within which a new status must come, 0.1 to 60")
+      ->check(Between(0.1, 60))
+      ->capture_default_str();
+  command
+      ->add_option("--require-simulators", options->simulators_required,
+                   "How many simulators must be alive, 0 to 1024")
+      ->check(WholeBetween(0, 1024))
+      ->capture_default_str();
+  return command;
+}
+
 int RunHealth(const HealthOptions& options) {
   const std::string place =
       "world \"" + options.world + "\" on domain " + std::to_string(options.domain);
   Health health{.text = "CRITICAL: no service is heard in " + place};
-  if (const auto judged = Judge(options, place)) health = *judged;
+  try {
+    if (const auto judged = Judge(options, place)) health = *judged;
+  } catch (const std::runtime_error& error) {
+    health.text = std::string("CRITICAL: ") + error.what();
+  }
   std::cout << (options.json ? HealthJson(health) : health.text) << std::endl;
   if (!std::cout) return kExitOutputFailed;
   return static_cast<int>(health.level);

@@ -1,6 +1,7 @@
 // Whether the service of a world is well, for probes: one sentence and an exit code.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -38,8 +39,10 @@ Health HealthOf(const v1::ServiceStatus& before, const WorldView& view,
 /// A document of kind "health", one line without a newline.
 std::string HealthJson(const Health& health);
 
+CLI::App* AddHealthCommand(CLI::App* app, HealthOptions* options);
+
 /// Reads the status alone, waits for a fresh one, prints the sentence to standard output, and
-/// returns the exit code. Throws std::runtime_error if DDS is not available.
+/// returns the exit code; that DDS is not available is critical.
 int RunHealth(const HealthOptions& options);
 
 }  // namespace collision::client

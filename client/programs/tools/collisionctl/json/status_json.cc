@@ -7,6 +7,7 @@
 #include "client/programs/tools/collisionctl/json/json_writer.h"
 #include "client/programs/tools/collisionctl/status/status_fields.h"
 #include "client/programs/tools/collisionctl/status/verdict.h"
+#include "idl/histogram.h"
 #include "idl/limits.h"
 
 namespace collision::client {
@@ -34,6 +35,14 @@ std::string SimulatorJson(const v1::SimulatorStatus& simulator) {
   } else {
     object.Null("clock_offset");
   }
+  JsonObject quotas;
+  for (const v1::QuotaUse& use : simulator.quotas()) {
+    quotas.Add(use.resource(),
+               JsonObject().Count("used", use.used()).Count("most", use.most()).Json());
+  }
+  object.Add("quotas", quotas.Json())
+      .Count("refused_now", simulator.refused_now())
+      .TextOrNull("refused_why", simulator.refused_why());
   return object.Json();
 }
 
@@ -58,6 +67,30 @@ void AddService(const v1::ServiceStatus& status, JsonObject* object) {
     extensions.Text(extension.key(), extension.value());
   }
   object->Add("extensions", extensions.Json());
+}
+
+/// What the service measures of itself. An end of null: the class holds all that is greater.
+void AddMeasurements(const v1::ServiceStatus& status, JsonObject* object) {
+  object->TextOrNull("build", status.build())
+      .Instant("started", status.started_ns())
+      .Number("uptime_s", 1e-9 * static_cast<double>(status.uptime_ns()))
+      .Number("cpu_s", 1e-6 * static_cast<double>(status.cpu_us()))
+      .Count("memory_bytes", status.memory_bytes());
+  JsonObject histograms;
+  for (const v1::Histogram& histogram : status.histograms()) {
+    std::vector<std::string> classes;
+    for (int i = 0; i < histogram.counts_size(); ++i) {
+      JsonObject one;
+      if (i + 1 < wire::kHistogramCountsMax) {
+        one.Count("up_to", wire::ClassEnd(static_cast<std::size_t>(i)));
+      } else {
+        one.Null("up_to");
+      }
+      classes.push_back(one.Count("count", histogram.counts(i)).Json());
+    }
+    histograms.Add(histogram.name(), JsonArray(classes));
+  }
+  object->Add("histograms", histograms.Json());
 }
 
 std::string StandbysJson(const WorldView& view) {
@@ -102,6 +135,7 @@ std::string StatusJson(const WorldView& view) {
   document.Flag("well", verdict.front().starts_with("WELL")).Add("verdict", JsonTexts(verdict));
   AddService(status, &document);
   AddWorld(status, &document);
+  AddMeasurements(status, &document);
   return document.Add("simulators", JsonArray(simulators))
       .Add("counters", counters.Json())
       .Add("standbys", StandbysJson(view))

@@ -7,6 +7,7 @@
 
 #include "client/programs/tools/collisionctl/pages/text_pages.h"
 #include "client/programs/tools/collisionctl/status/status_fields.h"
+#include "client/programs/tools/collisionctl/status/status_measurements.h"
 #include "client/programs/tools/collisionctl/status/verdict.h"
 #include "collision/event_text.h"
 #include "idl/identity.h"
@@ -79,15 +80,21 @@ void AddMissing(const v1::ServiceStatus& status, std::vector<std::vector<std::st
   }
 }
 
+std::string RefusedText(const v1::SimulatorStatus& simulator) {
+  if (simulator.refused_now() == 0) return "-";
+  return std::to_string(simulator.refused_now()) + ": " + simulator.refused_why();
+}
+
 std::string SimulatorsTable(const v1::ServiceStatus& status) {
-  std::vector<std::vector<std::string>> rows = {
-      {"SIMULATOR", "RUN", "ALIVE", "CLOCK", "GRANTED", "AGENTS", "STATES", "REJECTED"}};
+  std::vector<std::vector<std::string>> rows = {{"SIMULATOR", "RUN", "ALIVE", "CLOCK", "GRANTED",
+                                                 "AGENTS", "STATES", "REJECTED", "REFUSED NOW"}};
   if (!status.simulated_clock()) rows.front().push_back("OFFSET");
   for (const v1::SimulatorStatus& simulator : status.simulators()) {
     rows.push_back({simulator.name(), std::to_string(simulator.run()),
                     simulator.alive() ? "yes" : "no", SinceText(simulator.clock_ns()),
                     SinceText(simulator.granted_until_ns()), std::to_string(simulator.agents()),
-                    std::to_string(simulator.states()), std::to_string(simulator.rejected())});
+                    std::to_string(simulator.states()), std::to_string(simulator.rejected()),
+                    RefusedText(simulator)});
     if (!status.simulated_clock()) rows.back().push_back(OffsetText(simulator));
   }
   AddMissing(status, &rows);
@@ -161,6 +168,7 @@ std::string StatusDetails(const WorldView& view) {
       Line("queries", QueriesText(status)) + Line("updates", UpdatesText(status));
   const std::string trees = TreesText(status);
   if (!trees.empty()) page += Line("trees", trees);
+  page += MeasurementLines(status);
   std::string label = "left out";
   for (const std::string& what : status.left_out()) {
     page += Line(std::exchange(label, ""), what);

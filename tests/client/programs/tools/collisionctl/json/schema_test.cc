@@ -3,10 +3,12 @@
 // Method: documents of a world that is filled by hand are validated by Debian's python3-jsonschema.
 #include <gtest/gtest.h>
 
+#include "client/programs/tools/collisionctl/doctor/findings.h"
 #include "client/programs/tools/collisionctl/json/event_json.h"
 #include "client/programs/tools/collisionctl/json/status_json.h"
 #include "client/programs/tools/collisionctl/json/world_json.h"
 #include "client/programs/tools/collisionctl/operator_request.h"
+#include "idl/limits.h"
 #include "tests/client/fake_transport.h"
 #include "tests/client/programs/tools/collisionctl/json/schema_check.h"
 #include "tests/client/programs/tools/collisionctl_fixture.h"
@@ -49,6 +51,15 @@ class SchemaTest : public CollisionctlTest {
     simulator->set_granted_until_ns(std::numeric_limits<std::int64_t>::min());
     simulator->mutable_clock_offset()->set_earliest_ns(-215'000);
     simulator->mutable_clock_offset()->set_latest_ns(kNever);
+    v1::QuotaUse* use = simulator->add_quotas();
+    use->set_resource("agents");
+    use->set_used(3);
+    simulator->set_refused_now(1);
+    simulator->set_refused_why("OUT_OF_RANGE: radius_m");
+    status->set_build("GCC");
+    v1::Histogram* steps = status->add_histograms();
+    steps->set_name("step_us");
+    for (int i = 0; i < wire::kHistogramCountsMax; ++i) steps->add_counts(1);
     v1::ServiceStatus* standby = Status();
     standby->set_service_id(2);
     standby->set_phase(v1::PHASE_STANDBY);
@@ -136,6 +147,10 @@ TEST_F(SchemaTest, TakesTheAnswersToOperators) {
   EXPECT_EQ(ComplaintsAbout({ResultJson({RequestOutcome::kDone, "done: it is removed"}),
                              ResultJson({RequestOutcome::kNoAnswer, ""})}),
             "");
+}
+
+TEST_F(SchemaTest, TakesWhatTheDoctorFinds) {
+  EXPECT_EQ(ComplaintsAbout({DoctorJson({}), DoctorJson({{"nobody", "none", "start one"}})}), "");
 }
 
 // Did the schema take anything, the tests above would say nothing.

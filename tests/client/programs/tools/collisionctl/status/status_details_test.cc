@@ -78,8 +78,8 @@ TEST_F(StatusDetailsTest, ShowsSimulatorsAndCounters) {
       "counters     queries_per_second 56, queries 789, queued 12, updates_kept 199, breaches "
       "1\n"
       "\n"
-      "SIMULATOR  RUN  ALIVE  CLOCK     GRANTED  AGENTS  STATES  REJECTED\n"
-      "sim        7    yes    12.000 s  -        1       0       0\n");
+      "SIMULATOR  RUN  ALIVE  CLOCK     GRANTED  AGENTS  STATES  REJECTED  REFUSED NOW\n"
+      "sim        7    yes    12.000 s  -        1       0       0         -\n");
 }
 
 TEST_F(StatusDetailsTest, ListsWhoIsWaitedForAndNotThere) {
@@ -89,7 +89,8 @@ TEST_F(StatusDetailsTest, ListsWhoIsWaitedForAndNotThere) {
   Poll(1);
   const std::string page = StatusDetails(view_);
   EXPECT_TRUE(page.starts_with("WAITS for one, two, shape ab12: ")) << page;
-  const std::string row = "\ntwo        -    missing  -        -        -       -       -\n";
+  const std::string row =
+      "\ntwo        -    missing  -        -        -       -       -         -\n";
   EXPECT_EQ(page.substr(page.size() - row.size()), row) << "a shape is no simulator, one is listed";
 }
 
@@ -156,10 +157,34 @@ TEST_F(StatusDetailsTest, ShowsTheOffsetsOfClocksInAWorldOfTheWallClock) {
   add("silent", kNoLower, kNever);
   Poll(1);
   const std::string page = StatusDetails(view_);
-  for (const char* row : {"REJECTED  OFFSET\n", "-0.215 … +0.402 ms\n", "+5000.000 … ? ms\n"}) {
+  for (const char* row :
+       {"REJECTED  REFUSED NOW  OFFSET\n", "-0.215 … +0.402 ms\n", "+5000.000 … ? ms\n"}) {
     EXPECT_NE(page.find(row), std::string::npos) << row << page;
   }
   EXPECT_EQ(page.substr(page.size() - 2), "-\n");
+}
+
+// Goal:   an operator reads how long the service runs, what it takes, and how long its steps take.
+TEST_F(StatusDetailsTest, ShowsWhatTheServiceMeasuresOfItself) {
+  v1::ServiceStatus* status = Status();
+  status->set_build("GCC 12.2.0, debug checks off");
+  status->set_started_ns(1'700'000'000'000'000'000);
+  status->set_uptime_ns(200'000'000'000'000);
+  status->set_cpu_us(2'000'000'000);
+  status->set_memory_bytes(45'600'000);
+  v1::Histogram* steps = status->add_histograms();
+  steps->set_name("step_us");
+  for (const std::uint64_t count : {0, 60, 39, 1}) steps->add_counts(count);
+  status->add_histograms()->set_name("update_to_contact_us");
+  monitor_.Poll(std::chrono::nanoseconds(0));
+  const std::string page = StatusDetails(view_);
+  for (const char* line : {"build        GCC 12.2.0, debug checks off\n",
+                           "up           2 d 7 h, since 2023-11-14T22:13:20Z\n",
+                           "used         2000.0 s of CPU (1.0 % of one core), 45.6 MB\n",
+                           "steps        100: half up to 2, 99 % up to 5, all up to 10 us\n",
+                           "to contact   none so far\n"}) {
+    EXPECT_TRUE(Contains(page, line)) << line << page;
+  }
 }
 
 }  // namespace

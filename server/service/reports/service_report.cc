@@ -1,4 +1,4 @@
-#include "server/service/service_report.h"
+#include "server/service/reports/service_report.h"
 
 #include <spdlog/spdlog.h>
 

@@ -1,4 +1,4 @@
-#include "idl/dds/writer_watch.h"
+#include "idl/dds/watch/writer_watch.h"
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 // Goal:   the log names each other service when it comes, goes or is configured otherwise, once,
 //         and says why this one takes over.
 // Method: what is logged, from statuses by hand.
-#include "server/service/service_report.h"
+#include "server/service/reports/service_report.h"
 
 #include <gtest/gtest.h>
 

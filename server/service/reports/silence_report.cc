@@ -1,4 +1,4 @@
-#include "server/service/silence_report.h"
+#include "server/service/reports/silence_report.h"
 
 #include <algorithm>
 

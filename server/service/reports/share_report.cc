@@ -1,4 +1,4 @@
-#include "server/service/share_report.h"
+#include "server/service/reports/share_report.h"
 
 #include <spdlog/fmt/fmt.h>
 

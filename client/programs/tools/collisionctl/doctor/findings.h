@@ -1,0 +1,54 @@
+// What the doctor has seen of a world and its network, and what follows from it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "client/programs/shared/world_view.h"
+#include "client/programs/tools/collisionctl/doctor/interfaces.h"
+#include "idl/dds/neighbours/neighbours.h"
+
+namespace collision::client {
+
+/// A domain in which somebody serves, other than the one that was asked for.
+struct ServedDomain {
+  std::uint32_t domain = 0;
+  std::vector<std::string> worlds;
+};
+
+struct DoctorSeen {
+  std::string world;
+  std::uint32_t domain = 0;
+  double waited_s = 0;
+  DdsNeighbours neighbours = {};
+  std::vector<Interface> interfaces = {};
+  std::string own_address = {};  ///< At which this program speaks; empty: not known.
+  std::vector<ServedDomain> elsewhere =
+      {};                       ///< Looked for only where nobody serves the world here.
+  std::string host = {};        ///< Asked by unicast, too; empty: none was.
+  bool host_answers = false;    ///< By unicast, though it is not heard by multicast.
+  std::string unreadable = {};  ///< MessageMonitor::unreadable().
+};
+
+/// One trouble.
+struct Finding {
+  std::string matter;  ///< A short constant word, for programs: "no-service".
+  std::string what;    ///< One sentence.
+  std::string advice;  ///< What to type, or to change.
+};
+
+/// The worlds that have a service among these, sorted.
+std::vector<std::string> WorldsServed(const DdsNeighbours& neighbours);
+
+/// In the order in which they are to be mended. `view`: what has been received of the world.
+std::vector<Finding> Findings(const DoctorSeen& seen, const WorldView& view);
+
+/// The page; without findings it says what is well.
+std::string DoctorPage(const DoctorSeen& seen, const WorldView& view,
+                       const std::vector<Finding>& findings);
+
+/// A document of kind "doctor", one line without a newline.
+std::string DoctorJson(const std::vector<Finding>& findings);
+
+}  // namespace collision::client

@@ -1,0 +1,143 @@
+// Goal:   from what is seen of a network follows what is wrong, the cause before its consequences,
+//         and of what is well nothing is said.
+// Method: what was seen is made by hand; tests/system/doctor_test.cc causes each trouble for real.
+#include "client/programs/tools/collisionctl/doctor/findings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/client/programs/tools/collisionctl_fixture.h"
+
+namespace collision::client {
+namespace {
+
+class FindingsTest : public CollisionctlTest {
+ protected:
+  FindingsTest() {
+    seen_.world = "lab";
+    seen_.interfaces = {
+        {.name = "lo",
+         .address = AddressOf("127.0.0.1"),
+         .mask = AddressOf("255.0.0.0"),
+         .is_loopback = true},
+        {.name = "eth0", .address = AddressOf("10.0.0.7"), .mask = AddressOf("255.255.255.0")}};
+    seen_.neighbours.programs[1] = {
+        .process = "collisionctl", .pid = "7", .host = "here", .is_own = true};
+    seen_.own_address = "10.0.0.7";
+  }
+
+  void AddService(std::uint64_t program, const std::string& addresses,
+                  const std::string& world = "lab") {
+    seen_.neighbours.programs[program] = {
+        .process = "collisiond", .pid = "9", .host = "there", .addresses = addresses};
+    seen_.neighbours.peers.push_back({.program = program,
+                                      .writes = true,
+                                      .topic = "collision/v1/service_status",
+                                      .partitions = {world}});
+  }
+
+  std::vector<std::string> Matters() {
+    monitor_.Poll(std::chrono::nanoseconds(0));
+    std::vector<std::string> matters;
+    for (const Finding& finding : Findings(seen_, view_)) matters.push_back(finding.matter);
+    return matters;
+  }
+
+  std::string Page() { return DoctorPage(seen_, view_, Findings(seen_, view_)); }
+
+  using Words = std::vector<std::string>;
+  DoctorSeen seen_;
+};
+
+TEST_F(FindingsTest, OfAServiceThatIsHeardNothingIsFound) {
+  AddService(2, "10.0.0.9:7410");
+  Status();
+  EXPECT_EQ(Matters(), Words{});
+  EXPECT_TRUE(Page().starts_with("WELL: ")) << Page();
+}
+
+TEST_F(FindingsTest, WhereNobodyServesTheNearestOtherIsNamed) {
+  EXPECT_EQ(Matters(), Words{"nobody"});
+  seen_.neighbours.programs[3] = {.process = "drone-swarm", .pid = "8", .host = "there"};
+  EXPECT_EQ(Matters(), Words{"no-service"});
+  seen_.elsewhere = {{.domain = 7, .worlds = {"lab"}}};
+  EXPECT_EQ(Matters(), Words{"other-domain"});
+  AddService(2, "10.0.0.9", "lab2");
+  EXPECT_EQ(Matters(), Words{"other-world"});
+  seen_.host = "10.0.0.9";
+  seen_.host_answers = true;
+  EXPECT_EQ(Matters(), Words{"multicast"});
+}
+
+TEST_F(FindingsTest, AServiceThatIsFoundAndNotHeard) {
+  AddService(2, "10.0.0.9:7410");
+  EXPECT_EQ(Matters(), Words{"unheard"});
+  seen_.neighbours.programs[2].addresses = "192.168.1.9:7410";
+  EXPECT_EQ(Matters(), Words{"other-network"});
+  EXPECT_NE(Page().find("found at 192.168.1.9"), std::string::npos) << Page();
+  seen_.neighbours.peers[0].misfit = "its type has no key";
+  EXPECT_EQ(Matters(), Words{"misfit"});
+}
+
+TEST_F(FindingsTest, InterfacesMatterWhereNothingIsHeard) {
+  seen_.interfaces.push_back(
+      {.name = "eth1", .address = AddressOf("192.168.1.7"), .mask = AddressOf("255.255.255.0")});
+  EXPECT_EQ(Matters(), (Words{"nobody", "interface"}));
+  EXPECT_NE(Page().find("speaks on eth0 10.0.0.7 alone, and there is also eth1 192.168.1.7"),
+            std::string::npos)
+      << Page();
+  AddService(2, "10.0.0.9");
+  Status();
+  EXPECT_EQ(Matters(), Words{});
+}
+
+TEST_F(FindingsTest, WhoSpeaksOnLoopbackAloneHearsNoOtherHost) {
+  seen_.own_address = "127.0.0.1";
+  EXPECT_EQ(Matters(), (Words{"nobody", "loopback"}));
+}
+
+TEST_F(FindingsTest, SeveralServicesAreTroubleUnlessTheyStandBy) {
+  AddService(2, "10.0.0.9");
+  AddService(3, "10.0.0.10");
+  Status();
+  EXPECT_EQ(Matters(), Words{"two-services"});
+  v1::ServiceStatus* standby = Status();
+  standby->set_service_id(9);
+  standby->set_phase(v1::PHASE_STANDBY);
+  EXPECT_EQ(Matters(), Words{});
+}
+
+TEST_F(FindingsTest, WhatTheStatusComplainsOfIsPassedOn) {
+  AddService(2, "10.0.0.9");
+  v1::ServiceStatus* status = Status();
+  Extend(status, "recording_failure", "run.rec: no space left");
+  v1::SimulatorStatus* simulator = status->add_simulators();
+  simulator->set_name("alpha");
+  EXPECT_EQ(Matters(), (Words{"service", "silent"}));
+  EXPECT_NE(Page().find("1. FAILS to record: run.rec: no space left"), std::string::npos) << Page();
+}
+
+TEST_F(FindingsTest, PeersOfOtherWorldsAreNobodysTrouble) {
+  AddService(2, "10.0.0.9");
+  Status();
+  seen_.neighbours.peers.push_back({.program = 4,
+                                    .writes = true,
+                                    .topic = "collision/v1/agent_states",
+                                    .partitions = {"lab2.x"},
+                                    .misfit = "its type has no key"});
+  EXPECT_EQ(Matters(), Words{});
+  for (const char* partition : {"lab.x", "lab"}) {
+    seen_.neighbours.peers.back().partitions = {partition};
+    EXPECT_EQ(Matters(), Words{"misfit"}) << partition;
+  }
+}
+
+TEST_F(FindingsTest, HasADocument) {
+  EXPECT_EQ(DoctorJson({{"no-service", "none \"here\"", "start one"}}),
+            R"({"schema":"collision/1","kind":"doctor","findings":[{"matter":"no-service",)"
+            R"("what":"none \"here\"","advice":"start one"}]})");
+}
+
+}  // namespace
+}  // namespace collision::client
