@@ -190,10 +190,14 @@ void ToldNews::Put(const ServiceStatus& status) {
     simulators_.push_back({simulator.simulator, simulator.name.c_str(), simulator.run,
                            simulator.agents, simulator.clock_ns, simulator.granted_until_ns,
                            simulator.states, simulator.rejected, Copied(simulator.clock_offset),
-                           simulator.alive ? 1 : 0});
+                           simulator.alive ? 1 : 0, simulator.refused_now,
+                           simulator.refused_why.c_str()});
   }
   counters_.clear();
   for (const auto& [name, value] : status.counters) counters_.push_back({name.c_str(), value});
+  histograms_.clear();
+  for (const auto& [name, counts] : status.histograms)
+    histograms_.push_back({name.c_str(), counts.data(), counts.size()});
   status_ = {sizeof status_,
              status.term,
              status.service,
@@ -207,7 +211,14 @@ void ToldNews::Put(const ServiceStatus& status) {
              sizeof(collision_simulator_status),
              simulators_.size(),
              counters_.data(),
-             counters_.size()};
+             counters_.size(),
+             status.build.c_str(),
+             status.started_ns,
+             status.uptime_ns,
+             status.cpu_us,
+             status.memory_bytes,
+             histograms_.data(),
+             histograms_.size()};
   news_.status = &status_;
 }
 

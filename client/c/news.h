@@ -66,6 +66,7 @@ class ToldNews {
   std::vector<const char*> meets_, never_meets_;
   std::vector<collision_simulator_status> simulators_;
   std::vector<collision_counter> counters_;
+  std::vector<collision_histogram> histograms_;
 };
 
 /// Oldest first; the oldest makes room beyond kNewsMax.

@@ -297,6 +297,9 @@ static void hear(const collision_news* news, heard* all) {
       CHECK(strcmp(news->status->world, world_name) == 0 && news->status->lock_step == 1);
       CHECK(news->status->counters_count > 10 && news->status->counters[0].name != NULL);
       CHECK(news->status->simulator_size == sizeof(collision_simulator_status));
+      CHECK(strlen(news->status->build) > 0 && news->status->uptime_ns > 0);
+      CHECK(news->status->memory_bytes > 1000000 && news->status->started_ns > 0);
+      CHECK(news->status->histograms_count == 3 && news->status->histograms[0].name != NULL);
       return;
     case COLLISION_NEWS_CLEARANCE:
     case COLLISION_NEWS_LOWERED:

@@ -3,6 +3,8 @@
 // Method: the build is installed into a folder, and the examples are built there.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <set>
 #include <sstream>
 
 #include "tests/system/test_world.h"
@@ -104,6 +106,42 @@ TEST_F(InstalledTest, TheHeaderInCIsPlainC) {
                                 " -std=" + standard + " -pedantic-errors -Wall -Wextra -Werror" +
                                 " -fsyntax-only -I" + Prefix() + "/include -"}));
   }
+}
+
+std::set<std::string> LinesOf(const std::string& text) {
+  std::set<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.insert(line);
+  return lines;
+}
+
+// Goal:   a program that was linked with the version before runs with this one; whoever changes the
+//         binary interface knows it.
+// Method: all exported symbols, and the sizes of all types that cross the interface by value, are
+//         those of the file that was recorded.
+TEST_F(InstalledTest, TheBinaryInterfaceIsTheRecordedOne) {
+  const Outcome symbols = RunToEnd({"nm", "-D", "--defined-only", Library()});
+  ExpectSuccess(symbols);
+  std::set<std::string> now = LinesOf(RunToEnd({Program("interface-sizes")}).out);
+  for (const std::string& line : LinesOf(symbols.out)) {
+    const std::string name = line.substr(line.rfind(' ') + 1);
+    if (name != "COLLISION_0") now.insert("symbol " + name);
+  }
+  std::string text;
+  for (const std::string& line : now) text += line + "\n";
+  std::ostringstream recorded;
+  recorded << std::ifstream(std::string(COLLISION_SOURCE_DIR) + "/client/packaging/interface.txt")
+                  .rdbuf();
+  const std::set<std::string> before = LinesOf(recorded.str());
+  std::string changes;
+  for (const std::string& line : before)
+    changes += now.contains(line) ? "" : "gone: " + line + "\n";
+  for (const std::string& line : now) changes += before.contains(line) ? "" : "new: " + line + "\n";
+  EXPECT_EQ(changes, "")
+      << "what is gone breaks programs that were linked before: raise SOVERSION of the library and "
+         "the name of its package, unless no version with it was released; then "
+         "client/packaging/interface.txt is:\n"
+      << text;
 }
 
 }  // namespace

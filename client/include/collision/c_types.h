@@ -337,6 +337,8 @@ typedef struct collision_simulator_status {
   uint64_t rejected;
   collision_bracket clock_offset;
   int32_t alive;
+  uint32_t refused_now;    /**< Of what it has written, as it stands. */
+  const char* refused_why; /**< Of one of these: reason and field; "": none. */
 } collision_simulator_status;
 
 /** A counter of the service. */
@@ -344,6 +346,14 @@ typedef struct collision_counter {
   const char* name;
   uint64_t value;
 } collision_counter;
+
+/** How many values fell into each class since the service began. Classes end at 1, 2, 5, 10, 20,
+    50, ... in the unit that ends the name. */
+typedef struct collision_histogram {
+  const char* name; /**< step_us, update_to_contact_us, contact_bracket_ns */
+  const uint64_t* counts;
+  size_t counts_count;
+} collision_histogram;
 
 /** What the service tells of itself. */
 typedef struct collision_service_status {
@@ -361,6 +371,13 @@ typedef struct collision_service_status {
   size_t simulators_count;
   const collision_counter* counters;
   size_t counters_count;
+  const char* build;     /**< Compiler, and whether its checks are on. */
+  int64_t started_ns;    /**< Wall clock, since 1970. */
+  int64_t uptime_ns;     /**< Also while the machine slept. */
+  uint64_t cpu_us;       /**< Of all threads of the process together. */
+  uint64_t memory_bytes; /**< Resident. */
+  const collision_histogram* histograms;
+  size_t histograms_count;
 } collision_service_status;
 
 /** The pair of agents that can intersect first. */

@@ -48,6 +48,12 @@ struct SimulatorClock {
   bool lock_step = false;    ///< False: real time.
 };
 
+/// What a simulator has of one of the limits of the world, and may have as things are.
+struct QuotaUse {
+  std::uint64_t used = 0;
+  std::uint64_t most = 0;
+};
+
 /// What the service knows of one simulator.
 struct SimulatorStatus {
   std::uint64_t simulator = 0;
@@ -62,6 +68,10 @@ struct SimulatorStatus {
   /// In real time: its clock less the service's is within [earliest_ns, latest_ns] for certain;
   /// INT64_MIN, INT64_MAX: not known.
   TimeBracket clock_offset{std::numeric_limits<std::int64_t>::min(), kNever};
+  /// By resource (agents, shapes, shape_bytes, tree_bytes), those of which it has something.
+  std::map<std::string, QuotaUse> quotas;
+  std::uint32_t refused_now = 0;  ///< Of what it has written, as it stands.
+  std::string refused_why;        ///< Of one of these: reason and field; empty: none.
 };
 
 /// Health and counters of the service, published every `status_period_s` (0.5 s by default) and
@@ -80,6 +90,14 @@ struct ServiceStatus {
   std::string broad_phase;                        ///< Method in use ...
   std::string broad_phase_why;                    ///< ... and the reason.
   std::vector<std::string> left_out;              ///< Work that the scene does not need, and why.
+  std::string build;                              ///< Compiler, and whether its checks are on.
+  std::int64_t started_ns = 0;                    ///< Wall clock, since 1970.
+  std::int64_t uptime_ns = 0;                     ///< Also while the machine slept.
+  std::uint64_t cpu_us = 0;                       ///< Of all threads of the process together.
+  std::uint64_t memory_bytes = 0;                 ///< Resident.
+  /// How many values fell into each class since the start, by name, which ends in the unit:
+  /// step_us, update_to_contact_us, contact_bracket_ns. Classes end at 1, 2, 5, 10, 20, 50, ...
+  std::map<std::string, std::vector<std::uint64_t>> histograms;
 };
 
 /// The pair of agents that can intersect first, of all pairs not in contact already.

@@ -63,6 +63,10 @@ SimulatorStatus SimulatorStatusOf(const v1::SimulatorStatus& message) {
   status.states = message.states();
   status.rejected = message.rejected();
   if (message.has_clock_offset()) status.clock_offset = BracketOf(message.clock_offset());
+  for (const v1::QuotaUse& use : message.quotas())
+    status.quotas[use.resource()] = {use.used(), use.most()};
+  status.refused_now = message.refused_now();
+  status.refused_why = message.refused_why();
   return status;
 }
 
@@ -323,6 +327,15 @@ ServiceStatus FromMessage(const v1::ServiceStatus& message) {
   status.broad_phase = message.broad_phase();
   status.broad_phase_why = message.broad_phase_why();
   status.left_out.assign(message.left_out().begin(), message.left_out().end());
+  status.build = message.build();
+  status.started_ns = message.started_ns();
+  status.uptime_ns = message.uptime_ns();
+  status.cpu_us = message.cpu_us();
+  status.memory_bytes = message.memory_bytes();
+  for (const v1::Histogram& histogram : message.histograms()) {
+    status.histograms[histogram.name()].assign(histogram.counts().begin(),
+                                               histogram.counts().end());
+  }
   return status;
 }
 

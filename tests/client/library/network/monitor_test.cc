@@ -102,6 +102,11 @@ TEST_F(MonitorTest, TheStatusArrivesWithSimulatorsAndCounters) {
   message->set_phase(v1::PHASE_SERVING);
   message->set_world("lab");
   message->add_left_out("rotation");
+  message->set_cpu_us(12);
+  auto* histogram = message->add_histograms();
+  histogram->set_name("step_us");
+  histogram->add_counts(3);
+  histogram->add_counts(4);
   auto* counter = message->add_counters();
   counter->set_name("queries");
   counter->set_value(9);
@@ -114,6 +119,8 @@ TEST_F(MonitorTest, TheStatusArrivesWithSimulatorsAndCounters) {
   EXPECT_EQ(status.world, "lab");
   EXPECT_EQ(status.left_out, std::vector<std::string>{"rotation"});
   EXPECT_EQ(status.counters.at("queries"), 9u);
+  EXPECT_EQ(status.cpu_us, 12u);
+  EXPECT_EQ(status.histograms.at("step_us"), (std::vector<std::uint64_t>{3, 4}));
   ASSERT_EQ(status.simulators.size(), 1u);
   EXPECT_EQ(status.simulators[0].name, "sim");
   EXPECT_EQ(status.simulators[0].granted_until_ns, 11);
