@@ -7,52 +7,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "collision/c_status.h"
+#include "collision/c_values.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/* ---- Results ---- */
-
-/** One of the values below. */
-typedef int collision_result;
-
-/** What a function returns. */
-enum {
-  COLLISION_OK = 0,
-  COLLISION_TIMEOUT = 1,  /**< Not within the time given; the call can be repeated. */
-  COLLISION_INVALID = -1, /**< An argument: the text names it, its value and the range. */
-  COLLISION_MISUSED = -2, /**< Not in this order, or not any more. */
-  COLLISION_UNAVAILABLE =
-      -3,              /**< DDS is not there, or an option of the connection is out of range. */
-  COLLISION_FULL = -4, /**< A limit is reached: the text names it. */
-  COLLISION_NO_MEMORY = -5,
-  COLLISION_FAILED = -6 /**< A defect of the library. */
-};
-
-/* ---- Values ---- */
-
-#define COLLISION_NEVER INT64_MAX  /* A time that does not come. */
-#define COLLISION_ALWAYS INT64_MIN /* No time yet. */
-
-/** Names one agent in all runs of all simulators of a world. */
-typedef struct collision_agent_id {
-  uint64_t simulator; /**< Hash of the simulator's name. */
-  uint32_t run;
-  uint32_t slot;
-  uint32_t generation;
-} collision_agent_id;
-
-/** A word about an agent. */
-typedef struct collision_tag {
-  const char* key;
-  const char* value;
-} collision_tag;
-
-/** A closed interval of time that contains a begin or an end. */
-typedef struct collision_bracket {
-  int64_t earliest_ns;
-  int64_t latest_ns; /**< COLLISION_NEVER: open. */
-} collision_bracket;
 
 /* ---- Shapes ---- */
 
@@ -324,61 +284,6 @@ typedef struct collision_breach {
   int64_t at_ns;
   uint64_t count;
 } collision_breach;
-
-/** What the service knows of one simulator. */
-typedef struct collision_simulator_status {
-  uint64_t simulator;
-  const char* name;
-  uint32_t run;
-  uint32_t agents;
-  int64_t clock_ns;
-  int64_t granted_until_ns;
-  uint64_t states;
-  uint64_t rejected;
-  collision_bracket clock_offset;
-  int32_t alive;
-  uint32_t refused_now;    /**< Of what it has written, as it stands. */
-  const char* refused_why; /**< Of one of these: reason and field; "": none. */
-} collision_simulator_status;
-
-/** A counter of the service. */
-typedef struct collision_counter {
-  const char* name;
-  uint64_t value;
-} collision_counter;
-
-/** How many values fell into each class since the service began. Classes end at 1, 2, 5, 10, 20,
-    50, ... in the unit that ends the name. */
-typedef struct collision_histogram {
-  const char* name; /**< step_us, update_to_contact_us, contact_bracket_ns */
-  const uint64_t* counts;
-  size_t counts_count;
-} collision_histogram;
-
-/** What the service tells of itself. */
-typedef struct collision_service_status {
-  uint32_t struct_size;
-  uint32_t term;
-  uint64_t service;
-  const char* version;
-  const char* world;
-  int32_t lock_step;
-  uint32_t agents;
-  uint32_t pairs_tracked;
-  int64_t now_ns;
-  const collision_simulator_status* simulators; /**< Each `simulator_size` bytes long. */
-  size_t simulator_size;
-  size_t simulators_count;
-  const collision_counter* counters;
-  size_t counters_count;
-  const char* build;     /**< Compiler, and whether its checks are on. */
-  int64_t started_ns;    /**< Wall clock, since 1970. */
-  int64_t uptime_ns;     /**< Also while the machine slept. */
-  uint64_t cpu_us;       /**< Of all threads of the process together. */
-  uint64_t memory_bytes; /**< Resident. */
-  const collision_histogram* histograms;
-  size_t histograms_count;
-} collision_service_status;
 
 /** The pair of agents that can intersect first. */
 typedef struct collision_earliest {
