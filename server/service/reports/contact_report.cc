@@ -5,6 +5,7 @@
 #include <ctime>
 #include <limits>
 
+#include "idl/identity.h"
 #include "server/process/logging.h"
 
 namespace collision::server {
@@ -29,8 +30,13 @@ std::string TimeText(std::int64_t ns, bool simulated_clock) {
   return fmt::format("{}.{:06d}Z", text, rest / 1000);
 }
 
-auto KeyOf(const v1::AgentId& id) {
-  return std::make_tuple(id.simulator_id(), id.run(), id.slot(), id.generation());
+/// Of this contact of this pair, and of no other one but by chance.
+std::uint64_t HashOf(const v1::CollisionEvent& contact) {
+  const v1::AgentId &lower = contact.lower(), &higher = contact.higher();
+  return Fnv1a(fmt::format("{}.{}.{}.{} {}.{}.{}.{} {} {}", lower.simulator_id(), lower.run(),
+                           lower.slot(), lower.generation(), higher.simulator_id(), higher.run(),
+                           higher.slot(), higher.generation(), contact.contact(),
+                           contact.level()));
 }
 
 }  // namespace
@@ -52,10 +58,10 @@ void ContactReport::WriteToLog(const std::string& text) {
 void ContactReport::TakeContact(const v1::CollisionEvent& contact) {
   measurements_.TakeContact(contact);
   if (contact.status() != v1::EVENT_CONFIRMED) return;
-  if (written_.size() == kWrittenMax) written_.clear();
-  const Contact key{KeyOf(contact.lower()), KeyOf(contact.higher()), contact.contact(),
-                    contact.level()};
-  if (!written_.insert(key).second) return;
+  const std::uint64_t hash = HashOf(contact);
+  std::uint64_t& place = written_[hash % kPlaces];
+  if (place == hash) return;
+  place = hash;
   write_(ContactText(contact, simulated_));
 }
 

@@ -1,12 +1,11 @@
 // What the service notes of its contacts for people.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "server/publish/measurements.h"
@@ -34,19 +33,15 @@ class ContactReport final : public ContactObserver {
   void TakeContact(const v1::CollisionEvent& contact) override;
   void ContactsHaveLeft() override { measurements_.ContactsHaveLeft(); }
 
-  /// Contacts of which it is known that they were written: beyond, all are forgotten, and may be
-  /// written again when their bracket becomes narrower.
-  static constexpr std::size_t kWrittenMax = 4096;
-
  private:
-  /// Simulator, run, slot, generation of both; the ordinal of the contact; the level.
-  using Agent = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>;
-  using Contact = std::tuple<Agent, Agent, std::uint32_t, std::string>;
+  /// Of so many contacts at most it is known that they were written. One whose place another took
+  /// may be written again when its bracket becomes narrower.
+  static constexpr std::size_t kPlaces = 1024;
 
   Measurements& measurements_;
   const bool simulated_;
   const Write write_;
-  std::set<Contact> written_;
+  std::array<std::uint64_t, kPlaces> written_{};  ///< Hashes of contacts, each at its place.
 };
 
 }  // namespace collision::server

@@ -114,7 +114,7 @@ TEST(Hello, WhatDoesNotFitIsRefusedByField) {
   EXPECT_EQ(revision->topic, v1::TOPIC_SIMULATOR_HELLO);
   EXPECT_EQ(revision->incarnation, 5u);
   EXPECT_EQ(revision->field, "wire_revision");
-  EXPECT_EQ(revision->detail, "1; allowed: 2, that of the service: use one version for both");
+  EXPECT_EQ(revision->detail, "1; allowed: 3, that of the service: use one version for both");
   EXPECT_EQ(refusal([](H* h) { h->set_clock_kind(v1::CLOCK_REAL_TIME); })->field, "clock_kind");
   EXPECT_EQ(refusal([](H* h) { h->set_frame("ENU 2"); })->field, "frame");
   EXPECT_EQ(refusal([](H* h) { h->set_simulator_name("b"); })->reason, v1::REJECTED_ID_MISMATCH);

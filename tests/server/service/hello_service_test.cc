@@ -58,7 +58,7 @@ TEST(HelloOfSimulator, WithAnotherRevisionNothingOfItIsTaken) {
   EXPECT_EQ(daemon.status().simulators_size(), 0);
   EXPECT_EQ(Mismatches(daemon), 1u);
   EXPECT_EQ(Extension(daemon.status(), "unfit"),
-            "alpha: wire_revision 3; allowed: 2, that of the service: use one version for both");
+            "alpha: wire_revision 4; allowed: 3, that of the service: use one version for both");
   daemon.Step(AlphaJoins(2));
   EXPECT_EQ(daemon.status().agents(), 2u) << "another program of the name fits";
 }
