@@ -28,6 +28,9 @@ void Require(bool holds, const Parts&... parts) {
 /// through the network's types into a daemon.
 void FuzzCodec(Bytes bytes);
 
+/// Samples of any topic as they arrive from the network, in any encoding.
+void FuzzWire(Bytes bytes);
+
 /// A configuration's text.
 void FuzzConfig(Bytes bytes);
 
@@ -52,9 +55,9 @@ struct Target {
 };
 
 inline constexpr Target kTargets[] = {
-    {"codec", FuzzCodec},        {"config", FuzzConfig}, {"recording", FuzzRecording},
-    {"mesh_file", FuzzMeshFile}, {"shape", FuzzShape},   {"detector", FuzzDetector},
-    {"contact", FuzzContact},
+    {"codec", FuzzCodec},         {"wire", FuzzWire},          {"config", FuzzConfig},
+    {"recording", FuzzRecording}, {"mesh_file", FuzzMeshFile}, {"shape", FuzzShape},
+    {"detector", FuzzDetector},   {"contact", FuzzContact},
 };
 
 }  // namespace collision::fuzz

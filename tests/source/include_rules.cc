@@ -207,7 +207,9 @@ std::string Complaint(const std::string& path, const Include& include) {
     return "the rules (tests/source/include_rules.cc) have no entry for " + FolderOf(path);
   }
   if (IsDds(include.name)) {
-    return StartsWithAny(path, {"idl/dds/", "tests/idl/"}) ? "" : "only idl/dds knows DDS";
+    return StartsWithAny(path, {"idl/dds/", "tests/idl/", "tests/fuzz/wire_fuzz"})
+               ? ""
+               : "only idl/dds knows DDS";
   }
   // Built for processors that not every machine has: code that others share must not be compiled
   // there.

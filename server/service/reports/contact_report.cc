@@ -35,8 +35,7 @@ std::uint64_t HashOf(const v1::CollisionEvent& contact) {
   const v1::AgentId &lower = contact.lower(), &higher = contact.higher();
   return Fnv1a(fmt::format("{}.{}.{}.{} {}.{}.{}.{} {} {}", lower.simulator_id(), lower.run(),
                            lower.slot(), lower.generation(), higher.simulator_id(), higher.run(),
-                           higher.slot(), higher.generation(), contact.contact(),
-                           contact.level()));
+                           higher.slot(), higher.generation(), contact.contact(), contact.level()));
 }
 
 }  // namespace
