@@ -3,6 +3,7 @@
 // Method: the real service, a hostile program, and an honest one in lock-step beside it; memory as
 //         the kernel counts it. A fifth of what is measured for tests/report/MEASURED.md.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <fstream>
 
@@ -49,6 +50,28 @@ TEST_P(Flood, CostsNoMemoryAndNoOtherItsAnswers) {
 
 INSTANTIATE_TEST_SUITE_P(EverNew, Flood, testing::Values("keys", "disposals"),
                          [](const auto& kind) { return std::string(kind.param); });
+
+// Goal:   whatever a participant writes, the service refuses or takes each message by itself, and
+//         serves the honest simulator as before.
+// Method: 20,000 messages of every topic with spoilt fields, for several names.
+TEST(Hostile, MessagesCostTheHonestNothing) {
+  const TestWorld world(111, "kind: REAL_TIME skew_max_s: 0.2");
+  const auto daemon = world.StartDaemon();
+  const auto honest = world.StartHelper("troubles", {"real-time"});
+  ASSERT_TRUE(honest->WaitForOutput("here")) << honest->err();
+  const auto hostile = world.StartHelper("hostile", {"20000"});
+  ASSERT_TRUE(hostile->WaitForOutput("written: 20000")) << hostile->err() << daemon->err();
+  EXPECT_EQ(hostile->WaitForExit(), 0) << hostile->err();
+  EXPECT_TRUE(daemon->WaitForOutput("input refused")) << daemon->err();
+  const Outcome status = world.Monitor({"status", "--json"});
+  EXPECT_TRUE(Contains(status.out, "\"name\":\"troubled\"")) << status.out;
+  const Outcome agents = world.Monitor({"agents", "--json"});
+  for (const char* name : {"one", "two"})
+    EXPECT_TRUE(Contains(agents.out, "\"name\":\"" + std::string(name) + "\"")) << agents.out;
+  EXPECT_TRUE(world.MonitorComesToSay({"agents"}, "troubled")) << agents.out;
+  daemon->Signal(SIGTERM);
+  EXPECT_EQ(daemon->WaitForExit(), 0) << daemon->err();
+}
 
 }  // namespace
 }  // namespace collision::system_test
