@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,10 @@ class Bus {
   /// Whether its batches come from a recording and hold everything that the recorded daemon added
   /// to them, so that the daemon adds nothing.
   virtual bool recorded() const { return false; }
+
+  /// Recorded: the greatest time that the recorded daemon had granted before this step, which its
+  /// simulators follow; nullopt: none, or not known.
+  virtual std::optional<std::int64_t> recorded_grant() const { return std::nullopt; }
 
   /// What the bus did to protect the service since the last call, a line for the log each.
   virtual std::vector<std::string> TakeWarnings() { return {}; }

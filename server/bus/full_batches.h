@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 #include "idl/messages.pb.h"
 
@@ -19,14 +18,14 @@ class FullBatches {
   static constexpr std::size_t kHeldInputsMax = 1 << 20;
 
   /// A batch of at most `most` inputs was received.
-  void Take(const std::vector<v1::Input>& inputs, std::size_t most) {
+  void Take(const google::protobuf::RepeatedPtrField<v1::Input>& inputs, std::size_t most) {
     const auto received = std::count_if(inputs.begin(), inputs.end(), [](const v1::Input& input) {
       return !input.has_shape_ready();
     });
     // What comes with a suspected message follows it.
-    const bool is_suspected = !inputs.empty() && inputs.front().suspected();
+    const bool is_suspected = !inputs.empty() && inputs.Get(0).suspected();
     full_ = is_suspected || static_cast<std::size_t>(received) >= most;
-    held_ = full_ && held_ < kHeldInputsMax ? held_ + inputs.size() : 0;
+    held_ = full_ && held_ < kHeldInputsMax ? held_ + static_cast<std::size_t>(inputs.size()) : 0;
   }
 
   bool last_was_full() const { return full_; }

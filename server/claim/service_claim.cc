@@ -47,8 +47,9 @@ void ServiceClaim::Hear(const HeardService& heard, std::int64_t now_ns) {
 
 void ServiceClaim::HearClock(std::uint64_t service, std::uint32_t term) {
   is_named_ = is_named_ || (is_unheard_ && (service == options_.instance || service == 0));
+  // A replay that begins in the middle of a run hears of itself.
   const std::uint32_t known = std::max({highest_heard_, options_.term_before, term_});
-  if (term <= known || term - known > kTermLeapMax) return;
+  if (service == options_.instance || term <= known || term - known > kTermLeapMax) return;
   highest_heard_ = term;
 }
 

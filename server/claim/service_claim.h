@@ -44,6 +44,10 @@ struct ClaimOptions {
   std::int64_t waking_ns = 0;     ///< How long it listens after it has stood still: its lease.
   /// Whom the service before this one served, as the journal has it.
   std::vector<JournalledSimulator> roster = {};
+  /// Of a replay that begins in the middle of a run: the epoch it was in, and the runs that it had
+  /// ended (EndedRuns::TakeTurn()).
+  std::uint32_t epoch = 0;
+  std::string ended_runs = {};
 };
 
 /// A service's claim to its world. Of the services that serve one world at most one stays: a
@@ -113,6 +117,7 @@ class ServiceClaim {
   /// number: it has heard only of another standby); 0: neither.
   std::uint32_t term() const { return phase_ == ClaimPhase::kStandby ? standby_term_ : term_; }
   std::uint64_t instance() const { return options_.instance; }
+  const ClaimOptions& options() const { return options_; }
 
   /// It does all the work of a service, whether it publishes it or not.
   bool works() const { return phase_ == ClaimPhase::kServing || phase_ == ClaimPhase::kStandby; }

@@ -25,6 +25,11 @@ constexpr std::string_view kFieldsWithoutResults[] = {"world",
                                                       "on_occupied",
                                                       "lease_s",
                                                       "on_recording_failure",
+                                                      "recorder_mb_max",
+                                                      "recorder_segment_mb",
+                                                      "recorder_segment_s",
+                                                      "recorder_keep_s",
+                                                      "contacts_mb_max",
                                                       "earliest_period_s"};
 
 }  // namespace

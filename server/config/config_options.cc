@@ -212,6 +212,21 @@ constexpr ConfigOption kOptions[] = {
      "When the recording (--record) cannot be written any more, as on a full disk: GO_ON serves on "
      "without it, END ends the service with 74. It ends with a whole batch, and the log and the "
      "status tell of it, either way."},
+    {"recorder_mb_max", "MB", "0", "1048576", "", "1024",
+     "Maximum size of all segments of the flight recorder together, in millions of bytes; the "
+     "oldest goes first, also when the disk is full. They lie in the folder recordings of "
+     "state_dir; without state_dir nothing is recorded. 0: no flight recorder."},
+    {"recorder_segment_mb", "MB", "1", "4096", "", "64",
+     "Size at which the next segment begins, at most a quarter of recorder_mb_max. A segment "
+     "begins with the newest inputs of all simulators, shapes included."},
+    {"recorder_segment_s", "s", "1", "86400", "", "600",
+     "Age at which the next segment begins: a replay begins with a segment."},
+    {"recorder_keep_s", "s", "0", "1000000000", "", "0",
+     "Segments that ended so long ago are removed. 0: none for its age."},
+    {"contacts_mb_max", "MB", "0", "1048576", "", "256",
+     "Maximum size of the journal of contacts, in millions of bytes, in the folder contacts of "
+     "state_dir: what collisionctl events --since shows. A contact takes about 3 kB in all its "
+     "revisions. The oldest go first. 0: none is kept."},
     {"tree_bytes_max", "bytes", "1048576", "1099511627776", "", "4294967296",
      "Maximum memory for the sphere trees of all shapes together, some hundred MB for a million "
      "triangles. A shape whose tree does not fit is refused; where only its finer tree does not, "

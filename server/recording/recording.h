@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <mutex>
 #include <optional>
 #include <string>
 
 #include "idl/recording.pb.h"
+#include "idl/recording/entries.h"
 #include "server/claim/service_claim.h"
 
 namespace collision::server {
@@ -25,6 +25,9 @@ class BatchSink {
   virtual std::string error() const = 0;
 };
 
+/// All of a batch but its inputs.
+void CopyTimes(const v1::RecordedBatch& from, v1::RecordedBatch* to);
+
 /// Former recordings that are kept beside a new one of the same name.
 inline constexpr int kFormerRecordingsMax = 3;
 
@@ -34,7 +37,7 @@ void KeepFormerRecordings(const std::string& file);
 
 /// Writes a recording to a file: a header with the complete configuration, then the batches, each
 /// as one entry or, beyond 64 MiB, as several, of which all but the last are `continued`
-/// (idl/recording.proto). Entries are delimited protobuf messages.
+/// (idl/recording.proto). Each entry has a checksum.
 ///
 /// Each batch has been handed to the operating system when Record() returns: a crash of the daemon
 /// loses nothing, a crash of the machine at most its page cache. The file needs no closing entry;
@@ -70,8 +73,17 @@ class RecordingWriter final : public BatchSink {
   std::string error_;
 };
 
-/// Reads a recording, entry by entry. Used by one thread.
-class RecordingReader {
+/// Where batches come from.
+class BatchSource {
+ public:
+  virtual ~BatchSource() = default;
+
+  /// The next batch, whole; nothing at the end of what can be read.
+  virtual std::optional<v1::RecordedBatch> Next() = 0;
+};
+
+/// Reads a recording, or a segment of the flight recorder, entry by entry. Used by one thread.
+class RecordingReader final : public BatchSource {
  public:
   /// Reads the header. Throws std::runtime_error, with file and byte offset, if the file is no
   /// recording.
@@ -83,24 +95,28 @@ class RecordingReader {
   /// Likewise.
   const ClaimOptions& claim() const { return claim_; }
 
-  /// The next batch, whole; nothing at the end and at the first entry that is cut off or damaged:
-  /// see error().
-  std::optional<v1::RecordedBatch> Next();
+  /// Its number within one start of the service, from 1; 0: it is no segment.
+  std::uint32_t segment() const { return segment_; }
+
+  /// Whether the next segment begins with the batch that follows the last one here: known once
+  /// Next() has given nothing.
+  bool continues() const { return end_ && end_->continues(); }
+
+  /// Nothing at the end and at the first entry that is cut off or damaged: see error().
+  std::optional<v1::RecordedBatch> Next() override;
 
   /// One line with file, byte offset and cause. Empty while all is well.
-  const std::string& error() const { return error_; }
+  const std::string& error() const { return error_.empty() ? entries_.error() : error_; }
 
  private:
   std::optional<v1::RecordedBatch> NextPart();
-  bool ReadEntry(v1::RecordingEntry* entry);
-  bool ReadLength(std::uint64_t* length);
-  bool Fail(const std::string& what);
+  std::string EndsAt(const std::string& what) const;
 
-  std::string path_;
-  std::ifstream file_;
-  std::uint64_t offset_ = 0;  // where the current entry begins
+  wire::EntryReader entries_;
   v1::Config config_;
   ClaimOptions claim_;
+  std::uint32_t segment_ = 0;
+  std::optional<v1::RecordingEnd> end_;
   std::string error_;
 };
 

@@ -13,8 +13,8 @@ ClockReading TimesOf(const v1::RecordedBatch& batch) {
 
 }  // namespace
 
-ReplaySource::ReplaySource(RecordingReader& reader, OutputFunction output)
-    : reader_(reader), output_(std::move(output)), next_(reader.Next()) {
+ReplaySource::ReplaySource(BatchSource& source, OutputFunction output)
+    : source_(source), output_(std::move(output)), next_(source.Next()) {
   if (next_) now_ = TimesOf(*next_);
 }
 
@@ -22,8 +22,10 @@ bool ReplaySource::Receive(std::chrono::nanoseconds, std::size_t, std::vector<v1
   if (!next_) return false;
   now_ = TimesOf(*next_);
   earliest_readers_ = next_->earliest_readers();
+  granted_ns_.reset();
+  if (next_->has_granted_ns()) granted_ns_ = next_->granted_ns();
   for (v1::Input& input : *next_->mutable_inputs()) inputs->push_back(std::move(input));
-  next_ = reader_.Next();
+  next_ = source_.Next();
   return true;
 }
 

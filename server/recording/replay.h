@@ -12,15 +12,17 @@
 namespace collision::server {
 
 /// Hands out one recorded batch for each Receive(), and the times of that batch for each Read()
-/// until the next one. A daemon on it repeats every step of the recorded one and each event,
-/// bit for bit, with the configuration that the reader holds. Samples are numbered otherwise where
-/// the recorded one published a status within a step. It never waits, and sends nothing.
+/// until the next one. A daemon on it repeats every step of the recorded one and each event, bit
+/// for bit, with the configuration that the recording holds. Samples are numbered otherwise where
+/// the recorded one published a status within a step. It never waits, and sends nothing. Where the
+/// recording begins in the middle of a run, as a segment of the flight recorder does, it finds the
+/// same contacts from there on, with brackets and numbers of its own.
 class ReplaySource final : public Bus, public Clock {
  public:
   using OutputFunction = std::function<void(const v1::Output&)>;
 
-  /// `reader` outlives this. `output` gets what the daemon publishes; it may be empty.
-  explicit ReplaySource(RecordingReader& reader, OutputFunction output = {});
+  /// `source` outlives this. `output` gets what the daemon publishes; it may be empty.
+  explicit ReplaySource(BatchSource& source, OutputFunction output = {});
 
   /// Ignores `timeout` and `limit`: the boundaries of the recorded batches are inputs too. False
   /// at the end of what can be read; the reader knows whether that is the end of the recording.
@@ -32,16 +34,18 @@ class ReplaySource final : public Bus, public Clock {
   void Wake() override {}
   bool recorded() const override { return true; }
   std::uint32_t earliest_readers() const override { return earliest_readers_; }
+  std::optional<std::int64_t> recorded_grant() const override { return granted_ns_; }
 
   /// The times of the last batch handed out; before that, those of the first.
   ClockReading Read() override { return now_; }
 
  private:
-  RecordingReader& reader_;
+  BatchSource& source_;
   OutputFunction output_;
   std::optional<v1::RecordedBatch> next_;
   ClockReading now_;
-  std::uint32_t earliest_readers_ = 0;  ///< At the last batch handed out.
+  std::uint32_t earliest_readers_ = 0;      ///< At the last batch handed out.
+  std::optional<std::int64_t> granted_ns_;  ///< Likewise.
 };
 
 }  // namespace collision::server

@@ -2,30 +2,50 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "collision_core/base/instant.h"
 #include "server/bus/clock.h"
+#include "server/recording/flight_recorder.h"
 #include "server/recording/recording.h"
 
 namespace collision::server {
 
-/// Records the time and the inputs of each step, as long as they can be. One thread.
+/// Nobody changes it any more.
+using SharedBatch = std::shared_ptr<const v1::RecordedBatch>;
+
+/// The batch of a step: its times, who reads the earliest intersection, the greatest time granted
+/// before (Always(): none), and its inputs, which it takes.
+SharedBatch BatchOf(const ClockReading& reading, std::uint32_t earliest_readers, Instant granted,
+                    std::vector<v1::Input> inputs);
+
+/// Records the batches of the steps: with --record as long as they can be, and beside that in the
+/// flight recorder. One thread.
 class StepRecorder {
  public:
-  /// `sink` may be null: nothing is recorded. It outlives this.
-  explicit StepRecorder(BatchSink* sink) : sink_(sink) {}
+  /// Either may be null. They outlive this.
+  StepRecorder(BatchSink* sink, FlightSink* flight) : sink_(sink), flight_(flight) {}
 
-  /// Before the step applies them; `earliest_readers` is the bus's. False: nothing more is recorded
-  /// from now on, told once, by failure().
-  bool Record(const ClockReading& reading, std::uint32_t earliest_readers,
-              std::vector<v1::Input>* inputs);
+  /// The flight recorder is to begin a segment, with the batch recorded next.
+  bool wants_opening() const { return flight_ != nullptr && flight_->wants_opening(); }
+  void Open(Opening opening) { opening_ = std::move(opening); }
+
+  /// Before the step applies it. False: nothing more is recorded to the sink from now on, told
+  /// once, by failure().
+  bool Record(const SharedBatch& batch);
 
   /// One line with path and cause; empty while all is well.
   const std::string& failure() const { return failure_; }
+  std::string flight_failure() const { return flight_ == nullptr ? "" : flight_->failure(); }
 
  private:
   BatchSink* const sink_;
+  FlightSink* const flight_;
+  std::optional<Opening> opening_;
   std::string failure_;
 };
 

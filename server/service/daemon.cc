@@ -24,6 +24,7 @@
 #include "server/publish/text/state_lines.h"
 #include "server/recording/step_recorder.h"
 #include "server/service/detection_step.h"
+#include "server/service/opening/opening_of.h"
 #include "server/service/operator_commands.h"
 #include "server/service/reports/contact_report.h"
 #include "server/service/reports/service_report.h"
@@ -35,18 +36,21 @@
 namespace collision::server {
 
 class Daemon::Implementation {
+  using Inputs = google::protobuf::RepeatedPtrField<v1::Input>;
+
  public:
   Implementation(const v1::Config& config, Bus& bus, Clock& clock, DaemonParts parts)
       : config_(config),
         bus_(bus),
         clock_(clock),
-        recorder_(parts.recorder),
+        recorder_(parts.recorder, parts.flight),
         journal_(config_, std::move(parts.journal)),
         quarantine_(parts.quarantine),
         claim_(parts.claim),
         services_(config_, claim_.instance(), std::move(parts.process)),
         progress_(std::move(parts.progress)),
         measurements_(parts.meter),
+        contact_report_(&measurements_, parts.contacts, config_),
         shape_builder_(parts.shape_builder
                            ? std::move(parts.shape_builder)
                            : std::make_unique<InlineShapeBuilder>(BuildOptionsOf(config_))),
@@ -56,9 +60,10 @@ class Daemon::Implementation {
         rejections_(config_.rejections_per_second_max(), &world_),
         intake_(config_, claim_.instance(), &world_, &detectors_, &rejections_, &shapes_),
         operators_(&world_, &intake_),
-        publisher_(config_, &claim_, &bus_, &contacts_),
+        publisher_(config_, &claim_, &bus_, &contact_report_),
         schedule_(ToNanoseconds(config_.status_period_s())) {
     intake_.sender_clocks().SetServiceId(claim_.instance());
+    if (parts.claim.epoch > 0) GoOnFrom(parts.claim, clock_.Read(), &world_, &intake_, &publisher_);
   }
 
   bool Step() {
@@ -107,8 +112,10 @@ class Daemon::Implementation {
 
  private:
   /// The step after its batch was received. False: the service is to end.
-  bool Apply(std::int64_t before_ns, std::vector<v1::Input> inputs) {
-    if (!Begin(clock_.Read(), &inputs)) return false;
+  bool Apply(std::int64_t before_ns, std::vector<v1::Input> received) {
+    const SharedBatch batch = Begin(clock_.Read(), std::move(received));
+    if (!Record(batch)) return false;
+    const Inputs& inputs = batch->inputs();
     // Otherwise there is a step for each status at least.
     const std::int64_t gap_ns = world_.monotonic_ns() - before_ns;
     if (gap_ns > ToNanoseconds(config_.status_period_s()) + kStoodStill) {
@@ -148,6 +155,7 @@ class Daemon::Implementation {
     if (claim_.phase() != ClaimPhase::kWaking && schedule_.Take(world_)) SendStatus();
     for (const std::uint64_t simulator : world_.TakeForgotten()) bus_.Forget(simulator);
     publisher_.Flush();
+    contact_report_.EndStep(batch->wall_ns());
     measurements_.EndStep();
     for (const std::string& line : bus_.TakeWarnings()) Log(spdlog::level::warn, "network", line);
 #ifndef NDEBUG
@@ -180,19 +188,27 @@ class Daemon::Implementation {
     return std::chrono::nanoseconds(std::max<std::int64_t>(wait, 0));
   }
 
-  /// Takes the time of this step and records its inputs. False: that failed, and ends the service.
-  bool Begin(const ClockReading& reading, std::vector<v1::Input>* inputs) {
+  /// Takes the time of this step. Nothing changes the batch from here on.
+  SharedBatch Begin(const ClockReading& reading, std::vector<v1::Input> received) {
     if (const auto step = world_.SetReading(reading)) clock_step_ = step;
+    world_.FollowGrant(bus_.recorded_grant());
     ++steps_.batches;
-    steps_.inputs += inputs->size();
-    if (recorder_.Record(reading, bus_.earliest_readers(), inputs)) return true;
+    steps_.inputs += received.size();
+    return BatchOf(reading, bus_.earliest_readers(), world_.granted(), std::move(received));
+  }
+
+  /// False: that failed, and ends the service.
+  bool Record(const SharedBatch& batch) {
+    const bool serves = claim_.phase() == ClaimPhase::kServing;
+    if (serves && recorder_.wants_opening()) recorder_.Open(OpeningOf(world_, claim_));
+    if (recorder_.Record(batch)) return true;
     spdlog::error("{}; nothing more is recorded", recorder_.failure());
     schedule_.Hasten();
     return config_.on_recording_failure() != v1::Config::END;
   }
 
   /// Takes what other services say; `before`: this step. False: one of them has the world.
-  bool Claim(const std::vector<v1::Input>& inputs, ClaimPhase before) {
+  bool Claim(const Inputs& inputs, ClaimPhase before) {
     const std::int64_t now_ns = world_.monotonic_ns();
     for (const v1::Input& input : inputs) {
       if (input.has_simulator_clock()) {
@@ -373,6 +389,7 @@ class Daemon::Implementation {
     AddText(std::string(wire::kEndedRunsExtension),
             world_.ended_runs().TakeTurn(wire::kExtensionValueMax), &extensions);
     AddText("recording_failure", recorder_.failure(), &extensions);
+    AddText("flight_failure", recorder_.flight_failure(), &extensions);
     if (quarantine_ != nullptr) AddText("quarantine", quarantine_->Summary(), &extensions);
     return extensions;
   }
@@ -387,7 +404,7 @@ class Daemon::Implementation {
   ServiceReport services_;
   const std::function<bool()> progress_;  ///< As in DaemonParts.
   Measurements measurements_;
-  ContactReport contacts_{&measurements_, config_.clock().kind() != v1::Clock::REAL_TIME};
+  ContactReport contact_report_;
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   World world_;
   ShapeStore shapes_;

@@ -19,12 +19,16 @@
 namespace collision::server {
 
 class BatchSink;
+class ContactSink;
+class FlightSink;
 
 inline constexpr std::size_t kStateAgentsMax = 1000;
 
 /// What a daemon may have beside bus and clock.
 struct DaemonParts {
-  BatchSink* recorder = nullptr;  ///< Gets every batch before it is applied.
+  BatchSink* recorder = nullptr;    ///< Gets every batch before it is applied.
+  FlightSink* flight = nullptr;     ///< Likewise, without ever ending the service.
+  ContactSink* contacts = nullptr;  ///< Gets every contact that is published.
   std::unique_ptr<ShapeBuilder> shape_builder = nullptr;  ///< Null: shapes are built in the step
                                                           ///< after they have arrived.
   JournalParts journal = {};                              ///< Keeps term, roster and grants.

@@ -26,7 +26,7 @@ class OperatorCommands {
   bool Obey(const v1::OperatorCommand& command);
 
   /// The same for all commands of a batch.
-  bool ObeyAll(const std::vector<v1::Input>& inputs) {
+  bool ObeyAll(const google::protobuf::RepeatedPtrField<v1::Input>& inputs) {
     bool restarts = false;
     for (const v1::Input& input : inputs) {
       if (input.has_operator_command()) restarts |= Obey(input.operator_command());

@@ -163,6 +163,8 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
   Daemon daemon(
       config, bus, clock,
       {.recorder = recorder,
+       .flight = parts.flight,
+       .contacts = parts.contacts,
        .shape_builder = std::make_unique<ThreadedShapeBuilder>(build, [&bus] { bus.Wake(); }),
        .journal = std::move(parts.journal),
        .quarantine = parts.quarantine,

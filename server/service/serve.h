@@ -18,7 +18,9 @@
 
 namespace collision::server {
 
+class ContactSink;
 class Daemon;
+class FlightSink;
 
 /// The end of the line about a journal that ends the service.
 inline constexpr char kGoOnInstead[] =
@@ -27,6 +29,8 @@ inline constexpr char kGoOnInstead[] =
 /// What a service may have beside its bus; all may be null.
 struct ServiceParts {
   RecordingWriter* recorder = nullptr;
+  FlightSink* flight = nullptr;
+  ContactSink* contacts = nullptr;
   std::shared_ptr<TreeStore> trees = nullptr;
   JournalParts journal = {};
   Quarantine* quarantine = nullptr;

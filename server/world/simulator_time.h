@@ -49,7 +49,8 @@ class SimulatorTime {
   /// If that is what the newest clock names, all descriptions up to its sequence have arrived.
   void TakeCensus(std::uint64_t described, std::uint64_t refused);
 
-  std::uint64_t states_seen() const { return states_seen_; }  ///< The highest sequence.
+  std::uint64_t states_seen() const { return states_seen_; }              ///< The highest sequence.
+  std::uint64_t descriptions_seen() const { return descriptions_seen_; }  ///< Likewise.
   /// Up to this sequence every description and removal has arrived.
   std::uint64_t descriptions_arrived() const { return descriptions_arrived_; }
   /// The clock in force was written after every description and removal that has arrived, so all

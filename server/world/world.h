@@ -208,6 +208,14 @@ class World {
   /// the other one has acknowledged is not written again.
   void ForgetLowerings();
 
+  /// A replay: the recorded service has granted so much, and its simulators act on it. Where the
+  /// replay begins with the recording this changes nothing.
+  void FollowGrant(std::optional<std::int64_t> granted_ns) {
+    if (!simulated_ || !granted_ns || *granted_ns <= granted_.nanoseconds()) return;
+    granted_ = Instant::FromNanoseconds(*granted_ns);
+    GrantToAll();
+  }
+
   /// A clock of this simulator has come that is taken in a later round (SimulatorTime::Hear()): the
   /// service in force has granted it.
   void HearClock(Simulator* simulator, Instant clock, Instant until);

@@ -43,14 +43,16 @@ SimulatedSimulator& Scenario::Add(const SimulatorOptions& options,
   return *simulators_.back();
 }
 
-void Scenario::StartService(BatchSink* recorder, std::unique_ptr<ShapeBuilder> shape_builder) {
+void Scenario::StartService(BatchSink* recorder, std::unique_ptr<ShapeBuilder> shape_builder,
+                            FlightSink* flight) {
   earlier_ = published();
   daemon_.reset();
   bus_.reset();
   bus_ = std::make_unique<SimulatedBus>(&network_);
   daemon_ = std::make_unique<Daemon>(
       config_, *bus_, clock_,
-      DaemonParts{.recorder = recorder, .shape_builder = std::move(shape_builder)});
+      DaemonParts{
+          .recorder = recorder, .flight = flight, .shape_builder = std::move(shape_builder)});
 }
 
 void Scenario::StartSimulators() {

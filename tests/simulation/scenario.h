@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "server/config/config.h"
+#include "server/recording/flight_recorder.h"
 #include "server/recording/recording.h"
 #include "server/service/daemon.h"
 #include "tests/simulation/simulated_network.h"
@@ -35,7 +36,8 @@ class Scenario {
   /// A new daemon with an empty memory, in place of the one before. Without a `shape_builder` it
   /// has its own.
   void StartService(BatchSink* recorder = nullptr,
-                    std::unique_ptr<ShapeBuilder> shape_builder = nullptr);
+                    std::unique_ptr<ShapeBuilder> shape_builder = nullptr,
+                    FlightSink* flight = nullptr);
 
   /// Lets all simulators write their first samples.
   void StartSimulators();

@@ -57,7 +57,7 @@ const std::vector<Layer>& Layers() {
       {"server/bus/", {"idl/", "server/bus/"}},
       {"server/claim/", {core, "idl/", "server/process/", "server/claim/"}},
       {"server/recording/",
-       {"idl/", "server/process/", "server/config/", "server/bus/", "server/claim/",
+       {core, "idl/", "server/process/", "server/config/", "server/bus/", "server/claim/",
         "server/recording/"}},
       {"server/codec/", {core, "idl/", "server/codec/"}},
       {"server/quotas/", {core, "idl/", "server/config/", "server/quotas/"}},

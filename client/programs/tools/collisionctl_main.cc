@@ -18,6 +18,8 @@
 #include "client/programs/tools/collisionctl/health.h"
 #include "client/programs/tools/collisionctl/json/status_json.h"
 #include "client/programs/tools/collisionctl/json/world_json.h"
+#include "client/programs/tools/collisionctl/kept/kept_contacts.h"
+#include "client/programs/tools/collisionctl/kept/recordings.h"
 #include "client/programs/tools/collisionctl/operator_request.h"
 #include "client/programs/tools/collisionctl/pages/text_pages.h"
 #include "client/programs/tools/collisionctl/service_notes.h"
@@ -53,7 +55,8 @@ struct Options {
   bool explain = false;
   bool expected = false;
   std::vector<std::string> agents, statuses, levels;
-  std::optional<double> within_s, since_s;
+  std::optional<double> within_s;
+  KeptOptions kept;
   std::optional<std::size_t> top;
   double period_s = 1;
 };
@@ -108,7 +111,7 @@ EventFilter FilterOf(const Options& options) {
   EventFilter filter{.agents = options.agents,
                      .levels = options.levels,
                      .within_ns = Nanoseconds(options.within_s),
-                     .since_ns = Nanoseconds(options.since_s),
+                     .since_ns = Nanoseconds(SinceSeconds(options.kept)),
                      .top = options.top,
                      .expected = options.expected};
   for (const std::string& status : options.statuses) filter.statuses.push_back(*StatusOf(status));
@@ -260,10 +263,7 @@ void AddEvents(CLI::App* app, Options* options) {
       ->add_option("--within", options->within_s,
                    "Only what begins at most so many seconds ahead of now, 0 to 1e9")
       ->check(Finite(kSecondsMax, true));
-  events
-      ->add_option("--since", options->since_s,
-                   "Only revisions of the last so many seconds, 0 to 1e9")
-      ->check(Finite(kSecondsMax, true));
+  AddKeptEvents(events, &options->kept);
   events
       ->add_option(
           "--top", options->top,
@@ -345,6 +345,17 @@ DoctorOptions With(const Options& options, DoctorOptions doctor) {
   return doctor;
 }
 
+/// The events of the journal, for which no service is needed.
+int PrintJournal(const Options& options) {
+  if (options.follow) {
+    std::cerr << "collisionctl: --follow shows what comes, the journal what was: give one\n";
+    return kExitUsage;
+  }
+  const MonitorOptions& place = options.monitor;
+  return PrintKeptContacts(options.kept, place.world, place.domain,
+                           {.json = options.json, .explain = options.explain}, FilterOf(options));
+}
+
 int Operate(const Options& options, const v1::OperatorCommand& command) {
   const MonitorOptions& place = options.monitor;
   try {
@@ -373,6 +384,7 @@ int Main(int argc, char** argv) {
   const CLI::App* health_command = AddHealthCommand(&app, &health);
   DoctorOptions doctor;
   const CLI::App* doctor_command = AddDoctorCommand(&app, &doctor);
+  const CLI::App* recordings = AddRecordings(&app, &options.kept);
   AddExamples(&app);
   AddVersion(&app);
   try {
@@ -399,6 +411,10 @@ int Main(int argc, char** argv) {
     const auto kind = evict->parsed() ? v1::OPERATOR_EVICT : v1::OPERATOR_RESTART_TIME;
     return Operate(options, MakeCommand(kind, evicted));
   }
+  if (recordings->parsed()) {
+    return PrintRecordings(options.kept, options.monitor.world, options.json);
+  }
+  if (app.got_subcommand("events") && AsksForJournal(options.kept)) return PrintJournal(options);
   const auto stop = [](int) { stopped = 1; };
   std::signal(SIGINT, stop);
   std::signal(SIGTERM, stop);

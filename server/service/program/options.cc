@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "idl/recording/utc.h"
 #include "server/config/config.h"
 #include "server/config/config_options.h"
 #include "server/process/version.h"
@@ -30,6 +31,8 @@ Examples:
   COLLISION_WORLD=lab collisiond                the same for all programs of a shell
   collisiond --record run.rec                   serve, and keep every input
   collisiond --replay run.rec > events.jsonl    repeat that run without a network
+  collisiond --replay /var/lib/collisiond/lab --from 2026-11-29T03:00
+                                                likewise from the flight recorder, from then on
 
 Signals: SIGTERM, SIGINT end it after the step; SIGHUP does what --reload does; SIGUSR1 writes what
 it knows to the log.
@@ -59,6 +62,18 @@ CLI::Validator AllowedBy(const char* field) {
     return text + " is not a valid value; allowed: " + AllowedRange(*option);
   };
   return CLI::Validator(check, AllowedRange(*option));
+}
+
+/// Wall time, as wire::kUtcAllowed says.
+CLI::Option* AddTime(CLI::App* app, const char* name, std::optional<std::int64_t>* time_ns,
+                     const char* meaning) {
+  const auto take = [time_ns](const std::string& text) { *time_ns = wire::FromUtc(text); };
+  const auto check = [](const std::string& text) {
+    return wire::FromUtc(text) ? "" : '"' + text + "\"; allowed: " + wire::kUtcAllowed;
+  };
+  return app->add_option_function<std::string>(name, take, meaning)
+      ->type_name("TIME")
+      ->check(CLI::Validator(check, ""));
 }
 
 CLI::Validator NotEmpty() {
@@ -105,7 +120,13 @@ void Define(CLI::App* app, Options* options) {
   auto* replay =
       app->add_option("--replay", options->replay_file,
                       "Repeat the run that --record wrote to FILE, without DDS, with its own "
-                      "configuration; prints each event of its readers as a line of JSON");
+                      "configuration; prints each event of its readers as a line of JSON. FILE may "
+                      "be a segment of the flight recorder, or a folder of them (state_dir)");
+  AddTime(app, "--from", &options->from_ns,
+          "Print what was told from this time (UTC) on, as 2026-11-29T03:00:00; of a folder, begin "
+          "with the segment that contains it")
+      ->needs(replay);
+  AddTime(app, "--until", &options->until_ns, "Replay up to this time (UTC)")->needs(replay);
   for (auto* file : {config, record, replay}) file->type_name("FILE")->check(NotEmpty());
   check->needs(config)->excludes(print);
   for (auto* other : {config, check, print, world, domain, record}) replay->excludes(other);

@@ -20,7 +20,8 @@ struct Options {
   std::optional<std::uint32_t> domain;
   std::optional<std::string> log_level;
   std::string record_file;  ///< Empty: nothing is recorded.
-  std::string replay_file;  ///< Empty: the daemon serves.
+  std::string replay_file;  ///< Or a folder of segments; empty: the daemon serves.
+  std::optional<std::int64_t> from_ns, until_ns;  ///< Of the replay: wall time.
 };
 
 struct OptionsResult {

@@ -24,8 +24,10 @@
 #include "server/process/signals.h"
 #include "server/recording/recording.h"
 #include "server/recording/replay.h"
+#include "server/recording/segment_chain.h"
 #include "server/service/daemon.h"
 #include "server/service/program/calibrate.h"
+#include "server/service/program/kept_in_state_dir.h"
 #include "server/service/requests/reload.h"
 #include "server/service/serve.h"
 #include "server/shapes/tree_cache.h"
@@ -207,6 +209,7 @@ std::optional<int> ServeOnce(const v1::Config& config, const Options& options, b
   } catch (const std::runtime_error& error) {
     return Fail(kExitFile, error.what());
   }
+  const KeptInStateDir kept = OpenKept(config, claim);
   std::unique_ptr<DdsBus> bus;
   try {
     bus = std::make_unique<DdsBus>(config.world(), config.domain(),
@@ -217,6 +220,8 @@ std::optional<int> ServeOnce(const v1::Config& config, const Options& options, b
   }
   return Serve(config, *bus,
                {.recorder = recorder.get(),
+                .flight = kept.flight.get(),
+                .contacts = kept.contacts.get(),
                 .trees = std::move(cache),
                 .journal = {.journal = journal.get(),
                             .open = std::move(open_journal),
@@ -277,30 +282,38 @@ void PrintEvent(const v1::Output& output) {
 }
 
 /// What is complete is replayed, also of a recording that ends too early.
-int Replay(RecordingReader& reader) {
-  ReplaySource source(reader, PrintEvent);
-  Daemon daemon(reader.config(), source, source, {.claim = reader.claim()});
+int Replay(SegmentChain& chain, const ReplayRange& range) {
+  ReplaySource* clock = nullptr;
+  ReplaySource source(chain, [&](const v1::Output& output) {
+    if (!range.from_ns || clock->Read().wall_ns >= *range.from_ns) PrintEvent(output);
+  });
+  clock = &source;
+  DaemonParts parts;
+  parts.claim = chain.claim();
+  Daemon daemon(chain.config(), source, source, std::move(parts));
   while (daemon.Step()) {
   }
   std::cout.flush();
+  if (range.from_ns) spdlog::info("{}: here the replay ends", chain.path());
   LogFingerprint(daemon);
-  if (!reader.error().empty()) return Fail(kExitFile, reader.error());
+  if (!chain.error().empty()) return Fail(kExitFile, chain.error());
   return std::cout ? kExitOk : Fail(kExitFile, "standard output cannot be written");
 }
 
-int Replay(const std::string& file, const std::string& log_level) {
-  StartLogging({.level = log_level});  // not where the recorded run logged
-  std::unique_ptr<RecordingReader> reader;
+int Replay(const Options& options) {
+  StartLogging({.level = options.log_level.value_or("info")});  // not where the recorded run logged
+  const ReplayRange range{.from_ns = options.from_ns, .until_ns = options.until_ns};
+  std::unique_ptr<SegmentChain> chain;
   try {
-    reader = std::make_unique<RecordingReader>(file);
+    chain = std::make_unique<SegmentChain>(options.replay_file, range);
   } catch (const std::runtime_error& error) {
     return Fail(kExitFile, error.what());
   }
-  for (const ConfigError& error : CheckConfig(reader->config())) {
+  for (const ConfigError& error : CheckConfig(chain->config())) {
     return Fail(kExitFile,
-                file + ": byte 0: its configuration: " + error.field + ": " + error.what);
+                chain->path() + ": byte 0: its configuration: " + error.field + ": " + error.what);
   }
-  return Replay(*reader);
+  return Replay(*chain, range);
 }
 
 int Calibrate() {
@@ -311,9 +324,7 @@ int Calibrate() {
 
 int Run(const Options& options) {
   if (options.calibrate) return Calibrate();
-  if (!options.replay_file.empty()) {
-    return Replay(options.replay_file, options.log_level.value_or("info"));
-  }
+  if (!options.replay_file.empty()) return Replay(options);
   if (options.reload) return ReloadOther(*options.reload);
   ConfigResult loaded = Load(options);
   for (const std::string& error : loaded.errors) std::cerr << error << '\n';

@@ -56,6 +56,7 @@ void ContactReport::WriteToLog(const std::string& text) {
 
 void ContactReport::TakeContact(const v1::CollisionEvent& contact) {
   measurements_.TakeContact(contact);
+  if (kept_ != nullptr) kept_->Add(contact);
   if (contact.status() != v1::EVENT_CONFIRMED) return;
   const std::uint64_t hash = HashOf(contact);
   std::uint64_t& place = written_[hash % kPlaces];

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "idl/config.pb.h"
+#include "server/bus/contact_sink.h"
 #include "server/publish/measurements.h"
 #include "server/publish/publisher.h"
 
@@ -26,12 +28,19 @@ class ContactReport final : public ContactObserver {
   /// To the log, at most one line a second.
   static void WriteToLog(const std::string& text);
 
-  /// `measurements` outlives this.
-  ContactReport(Measurements* measurements, bool simulated_clock, Write write = WriteToLog)
-      : measurements_(*measurements), simulated_(simulated_clock), write_(std::move(write)) {}
+  /// `kept`: gets each contact, too; null: nobody does. Both outlive this.
+  ContactReport(Measurements* measurements, ContactSink* kept, const v1::Config& config,
+                Write write = WriteToLog)
+      : measurements_(*measurements),
+        kept_(kept),
+        simulated_(config.clock().kind() != v1::Clock::REAL_TIME),
+        write_(std::move(write)) {}
 
   void TakeContact(const v1::CollisionEvent& contact) override;
   void ContactsHaveLeft() override { measurements_.ContactsHaveLeft(); }
+  void EndStep(std::int64_t wall_ns) {
+    if (kept_ != nullptr) kept_->Write(wall_ns);
+  }
 
  private:
   /// Of so many contacts at most it is known that they were written. One whose place another took
@@ -39,6 +48,7 @@ class ContactReport final : public ContactObserver {
   static constexpr std::size_t kPlaces = 1024;
 
   Measurements& measurements_;
+  ContactSink* const kept_;
   const bool simulated_;
   const Write write_;
   std::array<std::uint64_t, kPlaces> written_{};  ///< Hashes of contacts, each at its place.

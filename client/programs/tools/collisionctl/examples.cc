@@ -30,6 +30,8 @@ constexpr Example kExamples[] = {
      "@what ada can meet in the next 10 s, in sentences"},
     {"events", "events --top 5           the five that are nearest in time"},
     {"events", "--world lab events --follow --json | jq 'select(.status == \"confirmed\")'"},
+    {"events", "events --since YESTERDAY   the contacts since then, from the service's journal"},
+    {"recordings", "recordings               the segments of the flight recorder, for --replay"},
     {"top", "top                      a live table of the nearest pairs"},
     {"why", "why ada bob              when the two can meet, why then, what would narrow it"},
     {"evict", "evict NAME               remove a simulator with its agents"},

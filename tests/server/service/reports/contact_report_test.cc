@@ -37,7 +37,7 @@ TEST(ContactText, NamesBothAndTheBracketOfTheBegin) {
 TEST(ContactReport, WritesEachContactOnce) {
   Measurements measurements(nullptr);
   std::vector<std::string> lines;
-  ContactReport report(&measurements, true,
+  ContactReport report(&measurements, nullptr, v1::Config(),
                        [&lines](const std::string& text) { lines.push_back(text); });
   report.TakeContact(Contact(1));
   report.TakeContact(Contact(1, 1'255'000'000));  // its bracket is narrower now

@@ -1,0 +1,88 @@
+#include "client/programs/tools/collisionctl/kept/kept_contacts.h"
+
+#include <chrono>
+#include <exception>
+#include <iostream>
+#include <vector>
+
+#include "client/programs/shared/exit_code.h"
+#include "client/programs/shared/world_view.h"
+#include "idl/recording/entries.h"
+#include "idl/recording/kept_files.h"
+#include "idl/recording_format.h"
+
+namespace collision::client {
+namespace {
+
+void ReadFile(const wire::KeptFile& file, const WallRange& range,
+              const std::function<void(const v1::ToldContact&)>& take,
+              const std::function<void(const std::string&)>& complain) {
+  try {
+    wire::EntryReader reader(file.path);
+    v1::RecordingEntry entry;
+    while (reader.Next(&entry)) {
+      const std::string refusal =
+          entry.has_header() ? wire::RefusalOfFormat(entry.header()) : std::string();
+      if (!refusal.empty()) return complain(file.path + ": " + refusal);
+      const std::int64_t wall_ns = entry.contact().wall_ns();
+      const bool is_in = range.since_ns <= wall_ns && wall_ns <= range.until_ns;
+      if (entry.has_contact() && is_in) take(entry.contact());
+    }
+    // What a service writes at this moment ends anywhere.
+    if (!reader.error().empty() && !wire::IsInUse(file.path)) complain(reader.error());
+  } catch (const std::exception& failure) {
+    complain(failure.what());
+  }
+}
+
+}  // namespace
+
+std::size_t ReadContacts(const std::string& state_folder, const std::string& place,
+                         const WallRange& range,
+                         const std::function<void(const v1::ToldContact&)>& take,
+                         const std::function<void(const std::string&)>& complain) {
+  std::vector<wire::KeptFile> files;
+  const std::string folder = state_folder + "/" + wire::kContactsFolder;
+  for (wire::KeptFile& file : wire::KeptFilesIn(folder, wire::kContactsSuffix)) {
+    if (file.place() == place) files.push_back(std::move(file));
+  }
+  for (const wire::KeptFile& file : files) {
+    if (file.begin_ns <= range.until_ns) ReadFile(file, range, take, complain);
+  }
+  return files.size();
+}
+
+int PrintKeptContacts(const KeptOptions& options, const std::string& world, std::uint32_t domain,
+                      const EventFormat& format, EventFilter filter) {
+  filter.since_ns.reset();  // it is of the world's time
+  const std::int64_t now_ns =
+      std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
+  WallRange range;
+  if (!options.since.empty()) range.since_ns = *WallTimeOf(options.since, now_ns);
+  if (!options.until.empty()) range.until_ns = *WallTimeOf(options.until, now_ns);
+  WorldView view;
+  const auto hear = view.Callbacks().event;
+  EventPrinter printer(format, filter, &std::cout);
+  const std::string folder = StateFolder(options, world);
+  const auto complain = [](const std::string& line) {
+    std::cerr << "collisionctl: " << line << '\n';
+  };
+  const std::size_t files = ReadContacts(
+      folder, world + "." + std::to_string(domain), range,
+      [&](const v1::ToldContact& contact) {
+        hear(contact.event());
+        printer.PrintNew(&view);
+      },
+      complain);
+  if (files == 0) {
+    complain(folder + "/" + wire::kContactsFolder + ": no journal of contacts of world \"" + world +
+             "\" on domain " + std::to_string(domain) +
+             " is in it; --state-dir names the service's state_dir");
+    return kExitRefused;
+  }
+  if (std::cout) return kExitOk;
+  complain("the output cannot be written");
+  return kExitOutputFailed;
+}
+
+}  // namespace collision::client

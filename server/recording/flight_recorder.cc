@@ -1,0 +1,137 @@
+#include "server/recording/flight_recorder.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace collision::server {
+namespace {
+
+constexpr std::uint64_t kBytesOfInput = 400, kBytesOfState = 600;
+
+/// About what a batch takes in memory.
+std::uint64_t BytesOf(const v1::RecordedBatch& batch) {
+  std::uint64_t bytes = kBytesOfInput;
+  for (const v1::Input& input : batch.inputs()) {
+    bytes += kBytesOfInput;
+    bytes += kBytesOfState * static_cast<std::uint64_t>(input.agent_states().states_size());
+    bytes += input.shape_part().bytes().size();
+  }
+  return bytes;
+}
+
+}  // namespace
+
+struct FlightRecorder::Shared {
+  struct Item {
+    std::shared_ptr<const v1::RecordedBatch> batch;
+    std::optional<Opening> opening;
+    std::uint64_t bytes = 0;
+  };
+
+  Shared(RollingPlace place, SegmentLimits limits, const v1::Config& config,
+         const ClaimOptions& claim, std::int64_t wall_ns, std::uint64_t most)
+      : bytes_max(most),
+        missed(NewestBytesMax(config)),
+        segments(std::move(place), limits, config, claim, wall_ns),
+        failure(segments.failure()) {}
+
+  const std::uint64_t bytes_max;
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::deque<Item> queue;  ///< This and all below, but `segments`: guarded by `mutex`.
+  std::uint64_t bytes = 0;
+  bool misses = false;  ///< Batches are left out, until the thread has written all others.
+  NewestInputs missed;  ///< Their newest inputs.
+  bool ends = false, has_ended = false;
+  Segments segments;  ///< The thread's.
+  std::string failure;
+  std::atomic<bool> wants_opening = false;
+};
+
+FlightRecorder::FlightRecorder(RollingPlace place, SegmentLimits limits, const v1::Config& config,
+                               const ClaimOptions& claim, std::int64_t wall_ns,
+                               std::uint64_t queue_bytes_max)
+    : shared_(std::make_shared<Shared>(std::move(place), limits, config, claim, wall_ns,
+                                       queue_bytes_max)) {
+  std::thread([shared = shared_] { Write(shared); }).detach();
+}
+
+FlightRecorder::~FlightRecorder() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->ends = true;
+  shared_->changed.notify_all();
+  if (shared_->changed.wait_for(lock, kFlightEndPatience, [&] { return shared_->has_ended; }))
+    return;
+  spdlog::warn("flight recorder: the disk does not answer; {} batches are not written",
+               shared_->queue.size());
+}
+
+bool FlightRecorder::wants_opening() const { return shared_->wants_opening; }
+
+std::string FlightRecorder::failure() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->failure;
+}
+
+void FlightRecorder::Take(std::shared_ptr<const v1::RecordedBatch> batch,
+                          std::optional<Opening> opening) {
+  const std::uint64_t bytes = BytesOf(*batch);
+  const std::lock_guard lock(shared_->mutex);
+  const bool is_full = !shared_->queue.empty() && shared_->bytes + bytes > shared_->bytes_max;
+  if (shared_->misses || is_full) {
+    shared_->misses = true;
+    for (const v1::Input& input : batch->inputs()) {
+      shared_->missed.Take(input, input.SerializeAsString());
+    }
+    return;
+  }
+  if (opening) shared_->wants_opening = false;
+  shared_->bytes += bytes;
+  shared_->queue.push_back({std::move(batch), std::move(opening), bytes});
+  shared_->changed.notify_all();
+}
+
+void FlightRecorder::Write(const std::shared_ptr<Shared>& shared) {
+  Shared& all = *shared;
+  std::unique_lock lock(all.mutex);
+  for (;;) {
+    all.changed.wait(lock, [&] { return all.ends || all.misses || !all.queue.empty(); });
+    if (all.ends && all.queue.empty()) break;
+    if (all.queue.empty()) {
+      NewestInputs missed = std::exchange(all.missed, NewestInputs(all.missed.bytes_max()));
+      all.misses = false;
+      lock.unlock();
+      all.segments.Miss(&missed);
+      lock.lock();
+      continue;
+    }
+    const std::deque<Shared::Item> items = std::exchange(all.queue, {});
+    lock.unlock();
+    std::uint64_t written = 0;
+    for (const Shared::Item& item : items) {
+      all.segments.Take(*item.batch, item.opening);
+      written += item.bytes;
+    }
+    all.segments.Flush();
+    lock.lock();
+    all.bytes -= written;
+    all.failure = all.segments.failure();
+    // One that is on its way is not asked for again.
+    const auto brings_one = [](const Shared::Item& item) { return item.opening.has_value(); };
+    all.wants_opening = all.segments.wants_opening() && std::ranges::none_of(all.queue, brings_one);
+  }
+  lock.unlock();
+  all.segments.End();
+  lock.lock();
+  all.has_ended = true;
+  all.changed.notify_all();
+}
+
+}  // namespace collision::server

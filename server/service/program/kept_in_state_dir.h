@@ -1,0 +1,26 @@
+// What a service keeps for people, in the folder of its journal.
+#pragma once
+
+#include <memory>
+
+#include "idl/config.pb.h"
+#include "server/claim/service_claim.h"
+#include "server/recording/contact_journal.h"
+#include "server/recording/flight_recorder.h"
+
+namespace collision::server {
+
+/// Either is null where `state_dir` is empty, or its size 0.
+struct KeptInStateDir {
+  std::unique_ptr<FlightRecorder> flight;
+  std::unique_ptr<ContactJournal> contacts;
+};
+
+/// A segment has at most so much of all that may be kept: the oldest to go is not the only one.
+inline constexpr std::uint64_t kSegmentsLeast = 4;
+
+/// `config` is complete. Throws nothing about files: what cannot be written is logged, and tried
+/// again.
+KeptInStateDir OpenKept(const v1::Config& config, const ClaimOptions& claim);
+
+}  // namespace collision::server

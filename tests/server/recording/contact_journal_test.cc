@@ -1,0 +1,103 @@
+// Goal:   every published contact is kept, through starts of the service, within a bound; what was
+//         cut off is cut off at the next start.
+#include "server/recording/contact_journal.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "idl/recording/entries.h"
+
+namespace collision::server {
+namespace {
+
+class ContactJournalTest : public testing::Test {
+ protected:
+  ContactJournalTest() { std::filesystem::remove_all(folder_); }
+  ~ContactJournalTest() override { std::filesystem::remove_all(folder_); }
+
+  RollingPlace Place(std::uint64_t bytes_max) const {
+    return {.folder = folder_,
+            .world_and_domain = "lab.0",
+            .suffix = ".contacts",
+            .bytes_max = bytes_max};
+  }
+
+  static void Tell(ContactJournal* journal, std::uint64_t number) {
+    v1::CollisionEvent event;
+    event.set_contacts_sequence(number);
+    event.mutable_lower_label()->set_agent_name("ada");
+    journal->Add(event);
+    journal->Write(static_cast<std::int64_t>(1000 + number));
+  }
+
+  std::vector<wire::KeptFile> Files() const { return wire::KeptFilesIn(folder_, ".contacts"); }
+
+  std::vector<std::uint64_t> Kept() const {
+    std::vector<std::uint64_t> numbers;
+    for (const wire::KeptFile& file : Files()) {
+      wire::EntryReader reader(file.path);
+      v1::RecordingEntry entry;
+      while (reader.Next(&entry)) {
+        if (!entry.has_contact()) continue;
+        EXPECT_EQ(entry.contact().event().lower_label().agent_name(), "ada");
+        numbers.push_back(entry.contact().event().contacts_sequence());
+        EXPECT_EQ(entry.contact().wall_ns(), static_cast<std::int64_t>(1000 + numbers.back()));
+      }
+      EXPECT_EQ(reader.error(), "");
+    }
+    return numbers;
+  }
+
+  const std::string folder_ = testing::TempDir() + "contacts." + std::to_string(getpid());
+};
+
+TEST_F(ContactJournalTest, GoesOnAfterAStartAndCutsOffADamagedTail) {
+  {
+    ContactJournal journal(Place(1 << 20), 1);
+    Tell(&journal, 1);
+    Tell(&journal, 2);
+  }
+  const std::string path = Files().at(0).path;
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 3);
+  {
+    ContactJournal journal(Place(1 << 20), 1);
+    Tell(&journal, 3);
+    EXPECT_EQ(journal.failure(), "");
+    ContactJournal beside(Place(1 << 20), 1);  // a standby, or a service that is about to end
+    Tell(&beside, 4);
+  }
+  EXPECT_EQ(Files().size(), 2u);
+  EXPECT_EQ(Kept(), (std::vector<std::uint64_t>{1, 3, 4}));
+}
+
+TEST_F(ContactJournalTest, TheOldestGo) {
+  ContactJournal journal(Place(16'000), 1);
+  for (std::uint64_t number = 1; number <= 2000; ++number) Tell(&journal, number);
+  std::uint64_t bytes = 0;
+  for (const wire::KeptFile& file : Files()) bytes += file.bytes;
+  EXPECT_LE(bytes, 16'500u);
+  const std::vector<std::uint64_t> kept = Kept();
+  ASSERT_GT(kept.size(), 100u);
+  for (std::size_t i = 1; i < kept.size(); ++i) EXPECT_EQ(kept[i], kept[i - 1] + 1);
+  EXPECT_EQ(kept.back(), 2000u);
+}
+
+TEST_F(ContactJournalTest, WhatCannotBeWrittenIsTriedAgainAfterAMinute) {
+  { std::ofstream(folder_) << "in the way"; }
+  ContactJournal journal(Place(1 << 20), 1);
+  EXPECT_NE(journal.failure(), "");
+  Tell(&journal, 1);
+  std::filesystem::remove(folder_);
+  Tell(&journal, 2);
+  EXPECT_NE(journal.failure(), "");
+  Tell(&journal, 100'000'000'000);
+  EXPECT_EQ(journal.failure(), "");
+  EXPECT_EQ(Kept(), std::vector<std::uint64_t>{100'000'000'000});
+}
+
+}  // namespace
+}  // namespace collision::server

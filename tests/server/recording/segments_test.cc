@@ -1,0 +1,287 @@
+// Goal:   the flight recorder keeps what fits, the newest of it, whole, and ends nothing.
+#include "server/recording/segments.h"
+
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "server/config/config.h"
+#include "server/recording/flight_recorder.h"
+#include "server/recording/recording.h"
+#include "server/recording/segment_chain.h"
+#include "tests/server/messages.h"
+#include "tests/support/random.h"
+
+namespace collision::server {
+namespace {
+
+constexpr std::int64_t kSecondNs = 1'000'000'000;
+constexpr std::int64_t kStart = 1'790'000'000 * kSecondNs;
+
+std::string ContentOf(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// Batches are a second apart, each with one clock, of about `bytes`.
+v1::RecordedBatch Batch(int number, std::size_t bytes = 1000) {
+  v1::RecordedBatch batch;
+  batch.set_wall_ns(kStart + number * kSecondNs);
+  batch.set_monotonic_ns(number * kSecondNs);
+  v1::SimulatorClock clock = ClockOf("alpha", number);
+  clock.set_simulator_name("alpha" + std::string(bytes, 'x'));
+  *batch.add_inputs() = From(1, clock);
+  return batch;
+}
+
+Opening OfAlpha() {
+  Opening opening;
+  opening.claim = {.instance = 7, .epoch = 1};
+  opening.simulators[SimulatorId("alpha")] = {.sender = 1, .run = 1, .is_in_time = true};
+  return opening;
+}
+
+class SegmentsTest : public testing::Test {
+ protected:
+  SegmentsTest() { std::filesystem::remove_all(folder_); }
+  ~SegmentsTest() override { std::filesystem::remove_all(folder_); }
+
+  RollingPlace Place(std::uint64_t bytes_max, std::int64_t keep_s = 0) const {
+    return {.folder = folder_,
+            .world_and_domain = "lab.0",
+            .suffix = ".rec",
+            .bytes_max = bytes_max,
+            .keep_ns = keep_s * kSecondNs};
+  }
+
+  Segments Begin(const RollingPlace& place, SegmentLimits limits, int at = 0) const {
+    return Segments(place, limits, config_, {.instance = 7}, kStart + at * kSecondNs);
+  }
+
+  /// One step, as the daemon does it.
+  static void Step(Segments* segments, const v1::RecordedBatch& batch) {
+    segments->Take(batch, segments->wants_opening() ? std::optional(OfAlpha()) : std::nullopt);
+    segments->Flush();
+  }
+
+  std::vector<wire::KeptFile> Files() const { return wire::KeptFilesIn(folder_, ".rec"); }
+
+  /// The clocks of a chain that begins with this file, without the opening of the first.
+  std::vector<std::int64_t> ClocksFrom(const wire::KeptFile& file) const {
+    std::vector<std::int64_t> clocks;
+    SegmentChain chain(folder_, {.from_ns = file.begin_ns});
+    while (const auto batch = chain.Next()) {
+      if (!batch->opening()) clocks.push_back(batch->inputs(0).simulator_clock().clock_ns());
+    }
+    EXPECT_EQ(chain.error(), "");
+    return clocks;
+  }
+
+  const v1::Config config_ = CompleteConfig({});
+  const std::string folder_ = testing::TempDir() + "segments." + std::to_string(getpid());
+};
+
+TEST_F(SegmentsTest, RollBySizeAndEachBeginsWithWhatIsNewest) {
+  Segments segments = Begin(Place(1 << 30), {.bytes = 30'000, .age_ns = kStart});
+  for (int i = 0; i < 100; ++i) Step(&segments, Batch(i));
+  segments.End();
+  const auto files = Files();
+  ASSERT_GE(files.size(), 4u);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    EXPECT_LE(files[i].bytes, 32'000u);
+    const std::vector<std::int64_t> clocks = ClocksFrom(files[i]);
+    ASSERT_FALSE(clocks.empty());
+    EXPECT_EQ(clocks.back(), 99) << "it goes on to the end";
+    for (std::size_t next = 1; next < clocks.size(); ++next) {
+      EXPECT_EQ(clocks[next], clocks[next - 1] + 1) << "without a gap";
+    }
+    RecordingReader reader(files[i].path);
+    EXPECT_EQ(reader.segment(), i + 1);
+    const auto first = reader.Next();
+    EXPECT_EQ(first->opening(), i > 0);
+    if (i > 0) {
+      EXPECT_EQ(first->inputs(0).simulator_clock().clock_ns(), clocks[0] - 1);
+    }
+  }
+}
+
+TEST_F(SegmentsTest, RollByAge) {
+  Segments segments = Begin(Place(1 << 30), {.bytes = 1 << 20, .age_ns = 10 * kSecondNs});
+  for (int i = 0; i < 65; ++i) Step(&segments, Batch(i));
+  EXPECT_EQ(Files().size(), 6u);
+}
+
+TEST_F(SegmentsTest, TheOldestGoBeyondTheBoundAndAfterTheirTime) {
+  Segments segments = Begin(Place(100'000), {.bytes = 20'000, .age_ns = kStart});
+  for (int i = 0; i < 1000; ++i) {
+    Step(&segments, Batch(i));
+    std::uint64_t bytes = 0;
+    for (const wire::KeptFile& file : Files()) bytes += file.bytes;
+    ASSERT_LE(bytes, 102'000u);
+  }
+  EXPECT_GE(Files().size(), 4u);
+  EXPECT_EQ(ClocksFrom(Files().front()).back(), 999);
+  segments.End();
+  Segments aged = Begin(Place(1 << 30, 100), {.bytes = 1 << 20, .age_ns = 10 * kSecondNs}, 1000);
+  for (int i = 1000; i < 1400; ++i) Step(&aged, Batch(i));
+  EXPECT_GE(Files().front().begin_ns, kStart + 1270 * kSecondNs);
+  EXPECT_LE(Files().front().begin_ns, kStart + 1300 * kSecondNs);
+}
+
+TEST_F(SegmentsTest, AStartKeepsWhatIsThereAndEachWorldHasItsOwn) {
+  { Begin(Place(1 << 30), {.bytes = 1 << 20, .age_ns = kStart}); }
+  const std::string first = ContentOf(Files().at(0).path);
+  RollingPlace other = Place(1);
+  other.world_and_domain = "other.0";
+  { Begin(other, {.bytes = 1, .age_ns = kStart}); }
+  { Begin(Place(1 << 30), {.bytes = 1 << 20, .age_ns = kStart}); }  // at the same time
+  ASSERT_EQ(Files().size(), 3u);
+  EXPECT_EQ(ContentOf(Files()[0].path), first);
+  RecordingReader reader(Files()[0].path);
+  EXPECT_FALSE(reader.Next());
+  EXPECT_FALSE(reader.continues());
+}
+
+// Goal:   a service that stands by gives no opening: the segment ends at twice its size.
+TEST_F(SegmentsTest, WithoutAnOpeningItEndsAndBeginsWhenThereIsOne) {
+  Segments segments = Begin(Place(1 << 30), {.bytes = 20'000, .age_ns = kStart});
+  for (int i = 0; i < 200; ++i) {
+    segments.Take(Batch(i), {});
+    segments.Flush();
+  }
+  ASSERT_EQ(Files().size(), 1u);
+  EXPECT_LE(Files()[0].bytes, 42'000u);
+  EXPECT_TRUE(segments.wants_opening());
+  Step(&segments, Batch(200));
+  ASSERT_EQ(Files().size(), 2u);
+  EXPECT_EQ(ClocksFrom(Files()[0]).back(), 37) << "a chain does not go on over a gap";
+  EXPECT_EQ(ClocksFrom(Files()[1]), std::vector<std::int64_t>{200});
+}
+
+// Goal:   a segment that is cut off, as kill -9 does it, or changed anywhere, gives its whole
+//         entries before that and names the byte.
+TEST_F(SegmentsTest, WhatIsDamagedIsNamedAndWhatPrecedesIsWhole) {
+  {
+    Segments segments = Begin(Place(1 << 30), {.bytes = 1 << 20, .age_ns = kStart});
+    for (int i = 0; i < 20; ++i) Step(&segments, Batch(i, 20));
+  }
+  const std::string path = Files().at(0).path, whole = ContentOf(path);
+  Random random(5);
+  for (int turn = 0; turn < 200; ++turn) {
+    std::string bytes = whole;
+    if (turn % 2 == 0) {
+      bytes.resize(random.Below(whole.size()));
+    } else {
+      bytes[random.Below(whole.size())] ^= static_cast<char>(1 << random.Below(8));
+    }
+    std::ofstream(path, std::ios::binary) << bytes;
+    try {
+      RecordingReader reader(path);
+      int next = 0;
+      while (const auto batch = reader.Next()) {
+        ASSERT_EQ(batch->DebugString(), Batch(next, 20).DebugString());
+        ++next;
+      }
+      const bool is_named = reader.error().starts_with(path + ": byte ");
+      EXPECT_TRUE(is_named || (turn % 2 == 0 && reader.error().empty())) << next;
+    } catch (const std::runtime_error& refused) {
+      EXPECT_TRUE(std::string(refused.what()).starts_with(path + ": byte 0: ")) << refused.what();
+    }
+  }
+}
+
+// Goal:   where nothing can be written it says so, keeps the rest whole, and tries again later.
+// Method: a limit on the size of files stands for the disk.
+TEST_F(SegmentsTest, AFailureEndsTheSegmentAndTheNextBeginsAfterAWhile) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  Segments segments =
+      Begin(Place(1 << 30), {.bytes = 1 << 20, .age_ns = kStart, .retry_ns = 5 * kSecondNs});
+  for (int i = 0; i < 10; ++i) Step(&segments, Batch(i));
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit full{Files().at(0).bytes + 10, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &full);
+  for (int i = 10; i < 13; ++i) Step(&segments, Batch(i));
+  EXPECT_EQ(segments.failure(), Files().at(0).path + ": cannot be written: File too large");
+  setrlimit(RLIMIT_FSIZE, &before);
+  for (int i = 13; i < 30; ++i) Step(&segments, Batch(i));
+  EXPECT_EQ(segments.failure(), "");
+  ASSERT_EQ(Files().size(), 2u);
+  EXPECT_EQ(ClocksFrom(Files()[0]).back(), 9);
+  EXPECT_EQ(ClocksFrom(Files()[1]).front(), 16);
+  EXPECT_EQ(RecordingReader(Files()[1].path).Next()->inputs(0).simulator_clock().clock_ns(), 15)
+      << "the newest inputs were kept meanwhile";
+}
+
+// Goal:   on a full disk the oldest segments make room; where none is left it says so.
+// Method: a small file system in memory, in a namespace of a thread of the test; that takes root,
+//         without whom nothing is tested here.
+TEST_F(SegmentsTest, OnAFullDiskTheOldestMakesRoom) {
+  std::thread([&] {
+    std::filesystem::create_directories(folder_);
+    if (unshare(CLONE_FS | CLONE_NEWNS) != 0) return;
+    mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
+    if (mount("tmpfs", folder_.c_str(), "tmpfs", 0, "size=1m") != 0) return;
+    Segments segments =
+        Begin(Place(1 << 30), {.bytes = 100'000, .age_ns = kStart, .retry_ns = 5 * kSecondNs});
+    for (int i = 0; i < 3000; ++i) Step(&segments, Batch(i));
+    EXPECT_EQ(segments.failure(), "");
+    EXPECT_EQ(ClocksFrom(Files().front()).back(), 2999);
+    const auto files = Files();
+    EXPECT_GE(files.size(), 5u);
+    // A batch that does not fit even when all others have gone.
+    Step(&segments, Batch(3000, 2'000'000));
+    EXPECT_TRUE(segments.failure().ends_with("No space left on device")) << segments.failure();
+    EXPECT_EQ(Files().size(), 1u) << "the one that was open";
+    EXPECT_EQ(ClocksFrom(Files()[0]).back(), 2999);
+    for (int i = 3001; i < 3004; ++i) Step(&segments, Batch(i));
+    for (int i = 3004; i < 3020; ++i) Step(&segments, Batch(i));
+    EXPECT_EQ(segments.failure(), "");
+    EXPECT_EQ(ClocksFrom(Files().back()).back(), 3019);
+  }).join();
+}
+
+// Goal:   with hardly any room in its queue batches are left out, but never without saying so, and
+//         what is newest is never lost.
+// Method: one that takes two batches at most; how many it leaves out depends on the machine, and
+//         what holds does not.
+TEST_F(SegmentsTest, ASlowDiskLeavesAGapThatIsTold) {
+  constexpr int kBatches = 3000;
+  {
+    FlightRecorder recorder(Place(1 << 30), {.bytes = 20'000, .age_ns = kStart}, config_,
+                            {.instance = 7}, kStart, 1);
+    for (int i = 0; i < kBatches; ++i) {
+      auto batch = std::make_shared<v1::RecordedBatch>(Batch(i, 100));
+      recorder.Take(batch, recorder.wants_opening() ? std::optional(OfAlpha()) : std::nullopt);
+    }
+  }
+  std::int64_t last = -1;
+  for (const wire::KeptFile& file : Files()) {
+    RecordingReader reader(file.path);
+    std::int64_t opened = -1;
+    while (const auto batch = reader.Next()) {
+      const std::int64_t clock = batch->inputs(0).simulator_clock().clock_ns();
+      if (batch->opening()) {
+        opened = clock;
+        EXPECT_GE(clock, last);
+        continue;
+      }
+      EXPECT_EQ(clock, opened >= 0 ? opened + 1 : last + 1) << file.path;
+      opened = -1;
+      last = clock;
+    }
+    EXPECT_EQ(reader.error(), "");
+  }
+}
+
+}  // namespace
+}  // namespace collision::server
