@@ -73,7 +73,7 @@ void RequireSize(std::size_t size) {
 }
 
 collision_world_options DefaultWorldOptions() {
-  const WorldOptions defaults{.world = "default", .domain = 0};
+  const WorldOptions defaults{.world = "default", .domain = 0, .credentials = ""};
   collision_world_options options{};
   options.struct_size = sizeof options;
   options.domain = kDomainOfEnvironment;
@@ -119,6 +119,7 @@ WorldOptions FromC(const collision_world_options& given) {
       .world = given.world == nullptr ? DefaultWorld() : given.world,
       .simulator = TextOf(given.simulator),
       .domain = given.domain == kDomainOfEnvironment ? DefaultDomain() : given.domain};
+  if (given.credentials != nullptr) options.credentials = given.credentials;
   options.frame = TextOf(given.frame);
   options.lock_step = given.lock_step != 0;
   options.run = given.run;
@@ -140,7 +141,8 @@ MonitorOptions FromC(const collision_monitor_options& given) {
   return {.world = given.world == nullptr ? DefaultWorld() : given.world,
           .domain = given.domain == kDomainOfEnvironment ? DefaultDomain() : given.domain,
           .service = given.service != 0,
-          .simulators = given.simulators != 0};
+          .simulators = given.simulators != 0,
+          .credentials = given.credentials == nullptr ? DefaultCredentials() : given.credentials};
 }
 
 AgentDescription FromC(const collision_agent_description& given) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "idl/credentials/files.h"
 #include "idl/limits.h"
 
 namespace collision::client {
@@ -34,5 +35,7 @@ std::uint32_t DefaultDomain() {
   }
   return domain;
 }
+
+std::string DefaultCredentials() { return Variable(credentials::kVariable); }
 
 }  // namespace collision::client

@@ -1,15 +1,10 @@
 #include "idl/dds/endpoints.h"
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 namespace collision::dds {
 namespace {
-
-using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
-
-Qos MakeQos() { return {dds_create_qos(), &dds_delete_qos}; }
 
 /// The QoS of both ends of a topic. Readers ask for reliability, too: their default is best effort.
 Qos TopicQos(const TopicRow& row, int depth) {

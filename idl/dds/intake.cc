@@ -4,9 +4,12 @@
 #include <array>
 #include <cstring>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "dds/ddsi/ddsi_serdata.h"
 #include "idl/dds/conversion.h"
+#include "idl/identity.h"
 
 namespace collision::dds {
 namespace {
@@ -47,6 +50,9 @@ const Wire& As(const void* sample) {
 
 /// Other services that are remembered after their end.
 constexpr std::size_t kEndedServicesMax = 64;
+
+/// Partitions of which forged samples are told at once; those of further ones are counted only.
+constexpr std::size_t kForgersToldMax = 16;
 
 void AddServiceEnd(std::uint64_t service, std::vector<v1::Input>* inputs) {
   if (inputs == nullptr) return;
@@ -91,6 +97,27 @@ void AddRemoval(TopicId topic, const void* sample, bool has_data, std::uint64_t 
     input.mutable_shape_removal()->set_shape(key.shape);
     input.mutable_shape_removal()->set_part(key.part);
   }
+}
+
+/// The simulator of which a sample speaks; of a disposal, too: it is part of the key.
+std::uint64_t SubjectOf(TopicId topic, const void* sample) {
+  switch (topic) {
+    case TopicId::kSimulatorHello:
+      return As<collision_v1_SimulatorHello>(sample).simulator_id;
+    case TopicId::kSimulatorClock:
+      return As<collision_v1_SimulatorClock>(sample).simulator_id;
+    case TopicId::kAgentDescription:
+      return As<collision_v1_AgentDescription>(sample).simulator_id;
+    case TopicId::kShapePart:
+      return As<collision_v1_ShapePart>(sample).simulator_id;
+    default:
+      return As<collision_v1_AgentStates>(sample).simulator_id;
+  }
+}
+
+/// The id of the simulator that a partition, WORLD.SIMULATOR, names. Neither name has a dot.
+std::uint64_t SimulatorIn(const std::string& partition) {
+  return SimulatorId(std::string_view(partition).substr(partition.rfind('.') + 1));
 }
 
 /// The simulator that a sample names itself: descriptions and clocks do, which makes them claims.
@@ -162,12 +189,40 @@ void Intake::Receive(const ArrivedSample& arrived, std::vector<v1::Input>* input
   if (sample == nullptr) return;
   // It may have been forgotten while the sample waited, or have written only now.
   senders_.Add(readers_[arrived.topic], arrived.writer, arrived.sender);
+  if (binds_ && IsForged(arrived, sample)) return;
   if (arrived.has_data() && !IsRemoval(arrived, sample)) {
     ReceiveData(TopicOf(arrived), sample, arrived.sender, inputs);
   }
   if (arrived.is_disposed()) {
     AddRemoval(TopicOf(arrived), sample, arrived.has_data(), arrived.sender, inputs);
   }
+}
+
+void Intake::BindSimulators() {
+  binds_ = true;
+  senders_.LookUpPartitions();
+}
+
+std::vector<Intake::Forgery> Intake::TakeForgeries() {
+  std::vector<Forgery> taken;
+  for (auto& [partition, forgery] : std::exchange(forgeries_, {})) taken.push_back(forgery);
+  return taken;
+}
+
+/// Of a program that has left before its first sample was taken nobody knows for whom it may speak:
+/// its samples are dropped as well.
+bool Intake::IsForged(const ArrivedSample& arrived, const void* sample) {
+  const std::string& partition = senders_.PartitionOf(arrived.writer);
+  const std::uint64_t subject = SubjectOf(TopicOf(arrived), sample);
+  if (!partition.empty() && subject == SimulatorIn(partition)) return false;
+  ++forged_;
+  if (forgeries_.size() < kForgersToldMax || forgeries_.contains(partition)) {
+    Forgery& forgery = forgeries_[partition];
+    forgery.partition = partition;
+    forgery.simulator = subject;
+    ++forgery.samples;
+  }
+  return true;
 }
 
 void Intake::ReceiveData(TopicId topic, const void* sample, std::uint64_t sender,

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -38,6 +40,21 @@ class Intake {
   /// `own` names the one simulator whose clearances and rejections are wanted; 0: those of all.
   Intake(std::uint64_t own, const Endpoints& endpoints) : own_(own), readers_(endpoints.readers) {}
 
+  /// From now on what a program writes counts only for the simulator that its partition names.
+  void BindSimulators();
+
+  struct Forgery {
+    std::string partition;
+    std::uint64_t simulator = 0;
+    std::uint64_t samples = 0;
+  };
+
+  /// What was dropped for that since the last call, of each partition.
+  std::vector<Forgery> TakeForgeries();
+
+  /// How many samples were.
+  std::uint64_t forged() const { return forged_; }
+
   /// Before TakeInbox() takes what they wrote, and after changes were taken that Follow() is to
   /// report: what a writer wrote has arrived before its end is known.
   void AddWriters(const std::vector<NewWriter>& writers);
@@ -60,6 +77,7 @@ class Intake {
   void Receive(const ArrivedSample& arrived, std::vector<v1::Input>* inputs);
   void ReceiveData(TopicId topic, const void* sample, std::uint64_t sender,
                    std::vector<v1::Input>* inputs);
+  bool IsForged(const ArrivedSample& arrived, const void* sample);
   void FollowService(const void* sample, const dds_sample_info_t& info, bool is_output,
                      std::vector<v1::Input>* inputs);
   void EndService(dds_instance_handle_t writer, std::vector<v1::Input>* inputs);
@@ -68,6 +86,9 @@ class Intake {
   const std::uint64_t own_;
   const std::array<dds_entity_t, kTopics> readers_;
   Senders senders_;
+  bool binds_ = false;
+  std::map<std::string, Forgery> forgeries_;  ///< By partition.
+  std::uint64_t forged_ = 0;
   /// The last status of each other service, by writer, while that lives.
   std::unordered_map<dds_instance_handle_t, v1::ServiceHeard> services_;
   std::unordered_map<dds_instance_handle_t, v1::ServiceHeard> ended_services_;

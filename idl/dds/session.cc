@@ -7,9 +7,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "idl/credentials/end_watch.h"
 #include "idl/dds/conversion.h"
 #include "idl/dds/endpoints.h"
 #include "idl/dds/intake.h"
+#include "idl/dds/security/credentials.h"
+#include "idl/dds/security/stranger_watch.h"
 #include "idl/dds/text.h"
 #include "idl/dds/waker.h"
 #include "idl/dds/watch/misfit_watch.h"
@@ -23,10 +26,6 @@ namespace {
 constexpr std::uint32_t kChunkMax = wire::kSlotMax / wire::kStatesPerChunkMax;
 
 using dds::Check;
-
-/// Behind the world's name. No simulator has this partition: none has an empty name.
-constexpr char kOperatorsPartition[] = "..operators";
-constexpr char kWatchersPartition[] = "..watchers";
 
 void CheckName(const char* what, const std::string& name) {
   if (wire::IsName(name)) return;
@@ -63,18 +62,33 @@ dds::Partitions PartitionsOf(const DdsSessionOptions& options) {
   if (simulator) partitions.write_as_simulator = options.world + "." + options.simulator;
   if (service) partitions.read_of_other_services = partitions.write_as_service = options.world;
   partitions.read_events_of_other_services = service && options.reads_events_of_services;
-  const std::string of_operators = options.world + kOperatorsPartition;
+  const std::string of_operators = options.world + dds::kOperatorsPartition;
   if (service) partitions.read_of_operators = of_operators;
   if (as_operator) partitions.write_as_operator = of_operators;
-  const std::string of_watchers = options.world + kWatchersPartition;
+  const std::string of_watchers = options.world + dds::kWatchersPartition;
   if (simulator) partitions.read_of_watchers = of_watchers;
   if (options.role == DdsRole::kWatcher) partitions.write_as_watcher = of_watchers;
   return partitions;
 }
 
-dds_entity_t CreateParticipant(std::uint32_t domain, const dds_listener_t* listener) {
-  const dds_entity_t participant = Check(dds_create_participant(domain, nullptr, listener),
-                                         "DDS domain " + std::to_string(domain));
+std::optional<dds::Credentials> CredentialsOf(const DdsSessionOptions& options) {
+  if (options.credentials.empty()) return std::nullopt;
+  return dds::Credentials(options.credentials);
+}
+
+/// The program on the network: with its credentials, if it has any.
+dds_entity_t CreateParticipant(std::uint32_t domain,
+                               const std::optional<dds::Credentials>& credentials,
+                               const dds_listener_t* listener) {
+  const dds::Qos qos = dds::MakeQos();
+  if (credentials) credentials->Apply(qos.get());
+  const dds_entity_t made = dds_create_participant(domain, qos.get(), listener);
+  if (made < 0 && credentials) {
+    throw std::runtime_error("DDS domain " + std::to_string(domain) +
+                             ": Cyclone DDS refuses the credentials in " + credentials->folder() +
+                             ": it has told why on standard error");
+  }
+  const dds_entity_t participant = Check(made, "DDS domain " + std::to_string(domain));
   // For the whole process, and only for writers made after it: samples gather until Flush().
   dds_write_set_batch(true);
   return participant;
@@ -86,7 +100,8 @@ class DdsSession::Implementation {
  public:
   explicit Implementation(const DdsSessionOptions& options)
       : inbox_(options.sender_limits),
-        participant_(CreateParticipant(Checked(options).domain, misfits_.listener())),
+        credentials_(CredentialsOf(Checked(options))),
+        participant_(CreateParticipant(options.domain, credentials_, misfits_.listener())),
         guard_(Check(dds_create_guardcondition(participant_.get()), "DDS guard condition")),
         endpoints_(dds::MakeEndpoints(participant_.get(), PartitionsOf(options),
                                       options.lease.count(), watch_.Listen(guard_),
@@ -103,6 +118,10 @@ class DdsSession::Implementation {
       Check(dds_waitset_attach(waitset_, arrived, 0), "DDS waitset");
     }
     waker_.emplace(guard_);
+    if (credentials_) end_watch_.emplace(credentials_->first_to_end(), credentials_->end());
+    if (!is_secured()) return;
+    intake_.BindSimulators();
+    if (options.role == DdsRole::kService) strangers_.emplace(participant_.get());
   }
 
   /// A service says that it ends: where a program was killed lately, or stands still, each writer
@@ -245,6 +264,32 @@ class DdsSession::Implementation {
            status.alive_count > 0;
   }
 
+  /// A network profile that secures its domain counts, too.
+  bool is_secured() const { return credentials_ || inbox_.domain().profile_secures; }
+
+  std::string open_interface() const { return inbox_.domain().open_interface; }
+
+  std::optional<std::string> TakeCredentialsWarning() {
+    if (!end_watch_) return std::nullopt;
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return end_watch_->Look(std::chrono::duration_cast<std::chrono::seconds>(now).count());
+  }
+
+  std::vector<DdsForgery> TakeForgeries() {
+    std::vector<DdsForgery> taken;
+    for (const auto& [partition, simulator, samples] : intake_.TakeForgeries()) {
+      taken.push_back({dds::Printable(partition), simulator, samples});
+    }
+    return taken;
+  }
+
+  std::vector<std::string> TakeStrangers() {
+    if (!strangers_) return {};
+    std::vector<std::string> strangers = strangers_->Look(std::chrono::steady_clock::now());
+    for (std::string& words : strangers) words = dds::Printable(std::move(words));
+    return strangers;
+  }
+
   std::uint32_t earliest_readers() const {
     dds_publication_matched_status_t status{};
     const dds_entity_t writer = Writer(dds::TopicId::kEarliestIntersection);
@@ -262,6 +307,7 @@ class DdsSession::Implementation {
     }
     counters.samples_refused = inbox_.refused();
     counters.senders_ignored = senders_ignored_;
+    counters.samples_forged = intake_.forged();
     counters.writes_failed = writes_failed_;
     return counters;
   }
@@ -297,11 +343,14 @@ class DdsSession::Implementation {
   dds::MisfitWatch misfits_;
   dds::WriterWatch watch_;
   dds::Inbox inbox_;
+  const std::optional<dds::Credentials> credentials_;
+  std::optional<credentials::EndWatch> end_watch_;
   const dds::Entity participant_;
   const dds_entity_t guard_;
   const dds::Endpoints endpoints_;
   const dds_entity_t waitset_;
   dds::Intake intake_;
+  std::optional<dds::StrangerWatch> strangers_;
   std::uint64_t service_id_ = 0;             ///< Of the statuses that were written; 0: none.
   std::map<std::uint64_t, Slots> breached_;  ///< By simulator.
   std::map<std::uint64_t, Slots> screened_;  ///< Of pairs, likewise.
@@ -366,6 +415,18 @@ std::vector<DdsLoss> DdsSession::losses() const { return implementation_->losses
 std::chrono::nanoseconds DdsSession::waited() const { return implementation_->waited(); }
 bool DdsSession::TakeRelief() { return implementation_->TakeRelief(); }
 std::uint32_t DdsSession::earliest_readers() const { return implementation_->earliest_readers(); }
+
+bool DdsSession::is_secured() const { return implementation_->is_secured(); }
+
+std::string DdsSession::open_interface() const { return implementation_->open_interface(); }
+
+std::optional<std::string> DdsSession::TakeCredentialsWarning() {
+  return implementation_->TakeCredentialsWarning();
+}
+
+std::vector<DdsForgery> DdsSession::TakeForgeries() { return implementation_->TakeForgeries(); }
+
+std::vector<std::string> DdsSession::TakeStrangers() { return implementation_->TakeStrangers(); }
 
 bool DdsSession::service_present() const { return implementation_->service_present(); }
 

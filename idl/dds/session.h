@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ struct DdsSessionOptions {
   /// Under 50 ms a busy machine gives false alarms.
   std::chrono::nanoseconds lease{2'000'000'000};
 
+  /// The folder of this program's credentials (idl/credentials/files.h): it takes part in a secured
+  /// world, as whom they say. Empty: it has none.
+  std::string credentials = {};
+
   /// Of what simulators write, for those that read it.
   dds::SenderLimits sender_limits = {};
 };
@@ -57,11 +62,20 @@ struct DdsLoss {
   std::chrono::nanoseconds ignored_for{0};  ///< From now on.
 };
 
+/// Samples of one simulator that a program wrote which may write for another one only. They are
+/// dropped.
+struct DdsForgery {
+  std::string partition;        ///< World and simulator of the program; empty if it has left.
+  std::uint64_t simulator = 0;  ///< For which it wrote; of several, one.
+  std::uint64_t samples = 0;    ///< Since the last call.
+};
+
 /// What did not become a message. All grow from 0.
 struct DdsCounters {
   std::uint64_t samples_lost = 0;     ///< The network gave up on them; newer ones came instead.
   std::uint64_t samples_refused = 0;  ///< Too many of their sender waited, or it was ignored.
   std::uint64_t senders_ignored = 0;  ///< How often one began to be.
+  std::uint64_t samples_forged = 0;   ///< Of DdsForgery.
   std::uint64_t writes_failed =
       0;  ///< DDS did not take them; the next sample of that key replaces them.
 };
@@ -146,6 +160,23 @@ class DdsSession {
 
   /// How long the oldest sample of a simulator had waited that the last Receive() took.
   std::chrono::nanoseconds waited() const;
+
+  /// Whether credentials or the network profile secure this session. Then what simulators write is
+  /// taken only from the partition that has the simulator's name, which permissions have checked.
+  bool is_secured() const;
+
+  /// The first network interface that leads off this machine; empty: none does. For roles that read
+  /// simulators.
+  std::string open_interface() const;
+
+  /// A sentence, when the credentials will end before long, or have ended.
+  std::optional<std::string> TakeCredentialsWarning();
+
+  std::vector<DdsForgery> TakeForgeries();
+
+  /// Programs of a secured network that DDS Security keeps out of this session, in words; each is
+  /// told once. For kService.
+  std::vector<std::string> TakeStrangers();
 
   /// True once after much has waited and is gone: memory can be given back to the system.
   bool TakeRelief();

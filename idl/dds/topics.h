@@ -33,6 +33,10 @@ inline constexpr std::size_t kTopics = 17;
 
 enum class Source { kSimulators, kService, kOperators, kWatchers };
 
+/// Behind the world's name. No simulator has this partition: none has an empty name.
+inline constexpr char kOperatorsPartition[] = "..operators";
+inline constexpr char kWatchersPartition[] = "..watchers";
+
 /// A command that a service has not taken by then means nothing any more [ns].
 inline constexpr dds_duration_t kCommandLifespan = DDS_SECS(10);
 

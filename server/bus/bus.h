@@ -11,6 +11,12 @@
 
 namespace collision::server {
 
+/// A line for the log.
+struct BusWarning {
+  const char* matter;  ///< However many lines of one there are, they do not hide those of others.
+  std::string text;
+};
+
 /// Where inputs come from and outputs go. One thread uses a bus, except for Wake().
 /// Implementations: DdsBus (the network), ReplaySource (a recording), and in tests a simulated
 /// network that loses, delays, duplicates and reorders from one seed.
@@ -52,8 +58,9 @@ class Bus {
   /// simulators follow; nullopt: none, or not known.
   virtual std::optional<std::int64_t> recorded_grant() const { return std::nullopt; }
 
-  /// What the bus did to protect the service since the last call, a line for the log each.
-  virtual std::vector<std::string> TakeWarnings() { return {}; }
+  /// What the bus did to protect the service, and what it heard of its network, since the last
+  /// call.
+  virtual std::vector<BusWarning> TakeWarnings() { return {}; }
 
   /// The programs that write more than they may, each with what is dropped of it, in words for the
   /// status.

@@ -5,22 +5,26 @@
 #include <utility>
 
 #include "idl/dds/network_log.h"
+#include "idl/identity.h"
 
 namespace collision::server {
 namespace {
 
-DdsSessionOptions Options(const std::string& world, std::uint32_t domain,
-                          std::chrono::nanoseconds lease, const dds::SenderLimits& sender_limits,
-                          bool stands_by) {
-  DdsSessionOptions options;
-  options.world = world;
-  options.domain = domain;
-  options.role = DdsRole::kService;
-  options.lease = lease;
-  options.reads_events_of_services = stands_by;
-  options.sender_limits = sender_limits;
-  return options;
+DdsSessionOptions SessionOptions(const std::string& world, std::uint32_t domain,
+                                 const DdsBusOptions& options) {
+  DdsSessionOptions session;
+  session.world = world;
+  session.domain = domain;
+  session.role = DdsRole::kService;
+  session.lease = options.lease;
+  session.reads_events_of_services = options.stands_by;
+  session.credentials = options.credentials;
+  session.sender_limits = options.sender_limits;
+  return session;
 }
+
+// Matters of the log.
+constexpr char kNetwork[] = "network", kStranger[] = "stranger";
 
 v1::Counter CounterOf(const std::string& name, std::uint64_t value) {
   v1::Counter counter;
@@ -31,9 +35,8 @@ v1::Counter CounterOf(const std::string& name, std::uint64_t value) {
 
 }  // namespace
 
-DdsBus::DdsBus(const std::string& world, std::uint32_t domain, std::chrono::nanoseconds lease,
-               const dds::SenderLimits& sender_limits, bool stands_by)
-    : world_(world), session_(Options(world, domain, lease, sender_limits, stands_by)) {
+DdsBus::DdsBus(const std::string& world, std::uint32_t domain, const DdsBusOptions& options)
+    : world_(world), session_(SessionOptions(world, domain, options)) {
   // Not before: of what is wrong with a network profile every line is wanted.
   dds::SetNetworkLog([this](const std::string& line) {
     const std::lock_guard lock(said_mutex_);
@@ -102,18 +105,39 @@ void DdsBus::Flush() { session_.Flush(); }
 
 void DdsBus::Wake() { session_.Wake(); }
 
-std::vector<std::string> DdsBus::TakeWarnings() {
-  std::vector<std::string> lines;
+std::vector<BusWarning> DdsBus::TakeWarnings() {
+  std::vector<std::string> said;
   {
     const std::lock_guard lock(said_mutex_);
-    lines = std::exchange(said_, {});
+    said = std::exchange(said_, {});
   }
+  std::vector<BusWarning> lines;
+  for (std::string& line : said) lines.push_back({kNetwork, std::move(line)});
   for (const DdsIgnored& ignored : session_.TakeIgnored()) {
-    lines.push_back(SimulatorIn(ignored.partition) +
-                    " writes more than it may: it is ignored for " +
-                    std::to_string(ignored.duration / std::chrono::seconds(1)) + " s");
+    lines.push_back(
+        {kNetwork, SimulatorIn(ignored.partition) + " writes more than it may: it is ignored for " +
+                       std::to_string(ignored.duration / std::chrono::seconds(1)) + " s"});
+  }
+  for (const std::string& stranger : session_.TakeStrangers()) {
+    lines.push_back({kStranger, stranger + " is on this network without credentials of this world: "
+                                           "nothing that it writes is taken"});
+  }
+  AddForgeries(&lines);
+  if (const auto warning = session_.TakeCredentialsWarning()) {
+    lines.push_back({"credentials", *warning});
   }
   return lines;
+}
+
+void DdsBus::AddForgeries(std::vector<BusWarning>* lines) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < forgeries_due_) return;
+  for (const DdsForgery& forgery : session_.TakeForgeries()) {
+    forgeries_due_ = now + kForgeriesTold;
+    lines->push_back({"forgery", SimulatorIn(forgery.partition) + " writes as simulator " +
+                                     IdText(forgery.simulator) + ", which is not its name: " +
+                                     std::to_string(forgery.samples) + " samples refused"});
+  }
 }
 
 std::vector<std::string> DdsBus::flooding() const {
@@ -138,6 +162,7 @@ std::vector<v1::Counter> DdsBus::network_counters() const {
   return {CounterOf("dds_samples_lost", counted.samples_lost),
           CounterOf("dds_samples_refused", counted.samples_refused),
           CounterOf("dds_senders_ignored", counted.senders_ignored),
+          CounterOf("dds_samples_forged", counted.samples_forged),
           CounterOf("dds_writes_failed", counted.writes_failed)};
 }
 

@@ -12,6 +12,15 @@
 
 namespace collision::server {
 
+struct DdsBusOptions {
+  /// How long this service may be silent before its clients count it as gone; each simulator sets
+  /// its own (SimulatorLiveliness).
+  std::chrono::nanoseconds lease = std::chrono::seconds(2);
+  dds::SenderLimits sender_limits = {};
+  bool stands_by = false;        ///< It also hears of the contacts that other services publish.
+  std::string credentials = {};  ///< Folder; empty: none.
+};
+
 /// The service's end of one world. Whatever a program writes, and however many keys it makes up,
 /// the others are heard, and memory is bounded (dds::SenderLimits).
 ///
@@ -19,13 +28,9 @@ namespace collision::server {
 /// code of the server that knows DDS, by way of idl/dds.
 class DdsBus final : public Bus {
  public:
-  /// `lease`: how long this service may be silent before its clients count it as gone; each
-  /// simulator sets its own (SimulatorLiveliness). Throws std::runtime_error, with the cause, if
-  /// the world's name or the domain is out of range, or DDS is not available.
-  /// `stands_by`: it also hears of the contacts that other services publish.
-  DdsBus(const std::string& world, std::uint32_t domain,
-         std::chrono::nanoseconds lease = std::chrono::seconds(2),
-         const dds::SenderLimits& sender_limits = {}, bool stands_by = false);
+  /// Throws std::runtime_error, with the cause, if the world's name or the domain is out of range,
+  /// DDS is not available, or it refuses the credentials.
+  DdsBus(const std::string& world, std::uint32_t domain, const DdsBusOptions& options = {});
   ~DdsBus() override;
   DdsBus(const DdsBus&) = delete;
   DdsBus& operator=(const DdsBus&) = delete;
@@ -45,8 +50,15 @@ class DdsBus final : public Bus {
   void EndHold(bool publish) override;
   void Wake() override;
 
-  /// The programs that are ignored from now on, and what Cyclone DDS said meanwhile.
-  std::vector<std::string> TakeWarnings() override;
+  /// Whether this world is secured.
+  bool is_secured() const { return session_.is_secured(); }
+
+  /// The first network interface that leads off this machine; empty: none does.
+  std::string open_interface() const { return session_.open_interface(); }
+
+  /// The programs that are ignored from now on or write as somebody else, what Cyclone DDS said
+  /// meanwhile, and that the credentials end.
+  std::vector<BusWarning> TakeWarnings() override;
   std::uint32_t earliest_readers() const override { return earliest_readers_; }
   std::chrono::nanoseconds waited() const override { return session_.waited(); }
 
@@ -61,11 +73,16 @@ class DdsBus final : public Bus {
  private:
   void Write(const v1::Output& output);
 
+  void AddForgeries(std::vector<BusWarning>* lines);
+
   /// The simulator that a program speaks for, as its partition says.
   std::string SimulatorIn(const std::string& partition) const;
 
   /// Lines of Cyclone DDS that are kept for TakeWarnings(); further ones are dropped.
   static constexpr std::size_t kSaidMax = 64;
+
+  /// Between two lines about programs that write as somebody else.
+  static constexpr std::chrono::seconds kForgeriesTold{1};
 
   const std::string world_;
   std::mutex said_mutex_;
@@ -73,6 +90,7 @@ class DdsBus final : public Bus {
   DdsSession session_;
   std::chrono::nanoseconds standstill_{0};
   std::chrono::steady_clock::time_point ran_;  ///< It certainly ran then.
+  std::chrono::steady_clock::time_point forgeries_due_;
   std::uint32_t earliest_readers_ = 0;
   bool holds_ = false;
   std::vector<v1::Output> held_;  ///< Of one step.

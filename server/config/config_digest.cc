@@ -30,7 +30,8 @@ constexpr std::string_view kFieldsWithoutResults[] = {"world",
                                                       "recorder_segment_s",
                                                       "recorder_keep_s",
                                                       "contacts_mb_max",
-                                                      "earliest_period_s"};
+                                                      "earliest_period_s",
+                                                      "credentials_dir"};
 
 }  // namespace
 

@@ -232,6 +232,11 @@ constexpr ConfigOption kOptions[] = {
      "triangles. A shape whose tree does not fit is refused; where only its finer tree does not, "
      "it "
      "keeps the coarse one."},
+    {"credentials_dir", "none", "", "",
+     "a path of at most 4096 printable ASCII characters, or empty", "\"\"",
+     "Folder of this service's credentials, as collisionctl make-certificates makes it: the world "
+     "is secured, and programs without credentials of the same authority are not heard "
+     "(docker/SECURITY.md). Empty: COLLISION_CREDENTIALS, if it is set, else none."},
 };
 
 class Silent final : public google::protobuf::io::ErrorCollector {

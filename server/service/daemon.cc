@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <utility>
 
 #include "idl/limits.h"
@@ -157,7 +156,7 @@ class Daemon::Implementation {
     publisher_.Flush();
     contact_report_.EndStep(batch->wall_ns());
     measurements_.EndStep();
-    for (const std::string& line : bus_.TakeWarnings()) Log(spdlog::level::warn, "network", line);
+    for (const auto& [matter, text] : bus_.TakeWarnings()) Log(spdlog::level::warn, matter, text);
 #ifndef NDEBUG
     world_.Validate();
 #endif

@@ -38,7 +38,7 @@ class Disposer {
 };
 
 TEST(DdsBusFlood, AnotherIsHeardAtOnce) {
-  DdsBus bus(TestWorld(), TestDomain(), kLease, SmallLimits());
+  DdsBus bus(TestWorld(), TestDomain(), {.lease = kLease, .sender_limits = SmallLimits()});
   Disposer hostile;
   DdsSession honest(SimulatorOptions("honest"));
   std::vector<v1::Input> inputs;
@@ -59,10 +59,10 @@ TEST(DdsBusFlood, AnotherIsHeardAtOnce) {
 }
 
 TEST(DdsBusFlood, OneThatGoesOnIsIgnoredAndNamed) {
-  DdsBus bus(TestWorld(), TestDomain(), kLease, SmallLimits());
+  DdsBus bus(TestWorld(), TestDomain(), {.lease = kLease, .sender_limits = SmallLimits()});
   Disposer hostile;
   std::vector<v1::Input> inputs;
-  std::vector<std::string> warnings;
+  std::vector<BusWarning> warnings;
   const auto end = std::chrono::steady_clock::now() + kDeadline;
   while (warnings.empty() && std::chrono::steady_clock::now() < end) {
     hostile.Dispose();
@@ -70,7 +70,8 @@ TEST(DdsBusFlood, OneThatGoesOnIsIgnoredAndNamed) {
     warnings = bus.TakeWarnings();
   }
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0], "simulator \"hostile\" writes more than it may: it is ignored for 10 s");
+  EXPECT_EQ(warnings[0].text,
+            "simulator \"hostile\" writes more than it may: it is ignored for 10 s");
   EXPECT_EQ(bus.counters().senders_ignored, 1u);
   EXPECT_GT(bus.counters().samples_refused, dds::kRefusedMax);
   EXPECT_TRUE(bus.TakeWarnings().empty());
@@ -117,7 +118,8 @@ v1::AgentStates LargestStates(std::uint32_t chunk) {
 // sanitizers watch.
 TEST(DdsBusFlood, ABusMayEndWhileProgramsWrite) {
   constexpr int kBuses = 5;
-  const DdsBus last_and_unread(TestWorld(), TestDomain(), kLease, SmallLimits());
+  const DdsBus last_and_unread(TestWorld(), TestDomain(),
+                               {.lease = kLease, .sender_limits = SmallLimits()});
   std::atomic<bool> ends = false;
   std::vector<std::thread> programs;
   for (const std::string name : {"a", "b"}) {
@@ -133,7 +135,7 @@ TEST(DdsBusFlood, ABusMayEndWhileProgramsWrite) {
   const ChildSimulator child(1);
   int heard = 0;
   for (int i = 0; i < kBuses; ++i) {
-    DdsBus bus(TestWorld(), TestDomain(), kLease, SmallLimits());
+    DdsBus bus(TestWorld(), TestDomain(), {.lease = kLease, .sender_limits = SmallLimits()});
     std::vector<v1::Input> inputs;
     if (ReceiveUntil(bus, &inputs, [&] { return !inputs.empty(); })) ++heard;
   }

@@ -335,7 +335,8 @@ TEST(DdsSession, BadOptionsSayWhatIsAllowed) {
   EXPECT_THROW(DdsBus("*", TestDomain()), std::runtime_error);
   EXPECT_THROW(DdsBus(std::string(65, 'a'), TestDomain()), std::runtime_error);
   EXPECT_NO_THROW(DdsBus(std::string(64, 'a'), TestDomain()));
-  EXPECT_THROW(DdsBus(TestWorld(), TestDomain(), std::chrono::nanoseconds(0)), std::runtime_error);
+  EXPECT_THROW(DdsBus(TestWorld(), TestDomain(), {.lease = std::chrono::nanoseconds(0)}),
+               std::runtime_error);
   EXPECT_THROW(DdsSession(SimulatorOptions("")), std::runtime_error);
   try {
     DdsBus(TestWorld(), 231);
@@ -369,9 +370,10 @@ TEST(DdsSession, TheLanProfileIsWellFormed) {
 
 // Readers of the status ask for a lease of 2 s: they would not match a longer one.
 TEST(DdsBus, AServiceHasNoLongerLeaseThanItsReadersAskFor) {
-  const DdsBus bus(TestWorld(), TestDomain(), std::chrono::seconds(2));
-  EXPECT_THROW(DdsBus(TestWorld(), TestDomain(), std::chrono::nanoseconds(2'000'000'001)),
-               std::runtime_error);
+  const DdsBus bus(TestWorld(), TestDomain(), {.lease = std::chrono::seconds(2)});
+  EXPECT_THROW(
+      DdsBus(TestWorld(), TestDomain(), {.lease = std::chrono::nanoseconds(2'000'000'001)}),
+      std::runtime_error);
 }
 
 }  // namespace

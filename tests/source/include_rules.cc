@@ -102,7 +102,7 @@ const std::vector<Layer>& Layers() {
       {library + "world/",
        {"idl/", api, validation, library + "deadline.h", library + "identity/",
         library + "network/", library + "notices/", library + "world/"}},
-      {library, {"idl/limits.h", api, validation}},
+      {library, {"idl/credentials/files.h", "idl/limits.h", api, validation}},
       // Written from the IDL alone.
       {"client/examples/fast_dds/",
        {"bus.h", "collisionPubSubTypes.h", "event_line.h", "options.h", "simulator.h"}},

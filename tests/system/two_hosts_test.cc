@@ -15,6 +15,9 @@ TEST(TwoHosts, SimulatorsElsewhereCollideAllTheSame) {
   TestWorld world(67);
   world.MoveTo(hosts.host(0));
   const auto daemon = world.StartDaemon();
+  // It has no credentials, and the cable leads to others.
+  EXPECT_TRUE(Contains(daemon->err(), "not secured, and heard beyond this machine (network "))
+      << daemon->err();
   const auto events = world.StartMonitor({"events", "--follow"});
   world.MoveTo(hosts.host(1));
   const auto left = world.StartSimulator(kLeft);

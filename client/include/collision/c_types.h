@@ -77,6 +77,7 @@ typedef struct collision_world_options {
   size_t levels_count;
   int64_t (*wall_clock)(void* user); /**< NULL: the system's. */
   void* wall_clock_user;
+  const char* credentials; /**< NULL: COLLISION_CREDENTIALS, or none. */
 } collision_world_options;
 
 /** What an agent declares about itself. */
@@ -356,6 +357,7 @@ typedef struct collision_monitor_options {
   const char* world;
   int32_t service;    /**< 1, as initialized: what the service publishes. */
   int32_t simulators; /**< 1: descriptions, removals, states and clocks of all simulators, too. */
+  const char* credentials; /**< As of a world. */
 } collision_monitor_options;
 
 #ifdef __cplusplus

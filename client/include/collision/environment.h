@@ -1,4 +1,4 @@
-// The world that a program joins unless it says otherwise.
+// The world that a program joins, and its credentials, unless it says otherwise.
 #pragma once
 
 #include <cstdint>
@@ -16,5 +16,9 @@ COLLISION_API std::string DefaultWorld();
 /// std::invalid_argument, with the variable and the allowed range, if it is no number from 0 to
 /// 230.
 COLLISION_API std::uint32_t DefaultDomain();
+
+/// The folder of this program's credentials, COLLISION_CREDENTIALS, if it is set; else empty: it
+/// has none (docker/SECURITY.md).
+COLLISION_API std::string DefaultCredentials();
 
 }  // namespace collision::client

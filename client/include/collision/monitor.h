@@ -27,6 +27,7 @@ struct MonitorOptions {
   /// Status, events, earliest intersection, clearances, rejections, breaches.
   bool service = true;
   bool simulators = false;  ///< Descriptions, removals, states and clocks of all simulators.
+  std::string credentials = DefaultCredentials();  ///< As in WorldOptions.
 };
 
 /// An agent as its simulator describes it.

@@ -15,6 +15,7 @@ enum class NoticeKind {
   kNameTaken,  ///< Another living program has the simulator's name.
   kEnded,      ///< An operator has ended the run.
   kBreach,     ///< The simulator broke what it declared: its agent, or its clock.
+  kCredentials,  ///< Its credentials end before long, or have ended: nobody hears it any more.
 };
 
 /// "no service", "wrong clock", ...

@@ -29,6 +29,9 @@ struct WorldOptions {
   std::string simulator =
       {};  ///< Unique in the world, 1-64 of [A-Za-z0-9_-]; names your agents' owner.
   std::uint32_t domain = DefaultDomain();  ///< DDS domain, 0-230.
+  /// Folder of this simulator's credentials in a secured world, as collisionctl make-certificates
+  /// makes it; empty: it has none.
+  std::string credentials = DefaultCredentials();
   /// Label of the frame in which positions are told, at most 64 bytes; empty: not stated. A service
   /// whose world states another one is refused, and refuses this simulator.
   std::string frame = {};

@@ -1,6 +1,8 @@
 #include "client/library/network/dds_transport.h"
 
 #include <map>
+#include <optional>
+#include <string>
 
 #include "idl/dds/session.h"
 
@@ -11,11 +13,12 @@ namespace {
 /// caller waiting.
 constexpr std::size_t kArrivalsMax = 65536;
 
-DdsSessionOptions Options(DdsRole role, const std::string& world, std::uint32_t domain) {
+DdsSessionOptions Options(DdsRole role, const Place& place) {
   DdsSessionOptions options;
   options.role = role;
-  options.world = world;
-  options.domain = domain;
+  options.world = place.world;
+  options.domain = place.domain;
+  options.credentials = place.credentials;
   return options;
 }
 
@@ -25,6 +28,10 @@ class DdsTransport : public Transport {
 
   void Receive(std::chrono::nanoseconds timeout, Arrivals* arrivals) override {
     session_.Receive(timeout, kArrivalsMax, &arrivals->inputs, &arrivals->outputs);
+  }
+
+  std::optional<std::string> TakeCredentialsWarning() override {
+    return session_.TakeCredentialsWarning();
   }
 
   bool service_alive() const override { return session_.service_present(); }
@@ -76,29 +83,29 @@ class DdsTransport : public Transport {
 
 }  // namespace
 
-std::unique_ptr<Transport> ConnectSimulator(const std::string& world, const std::string& simulator,
-                                            std::uint32_t domain) {
-  DdsSessionOptions options = Options(DdsRole::kSimulator, world, domain);
+std::unique_ptr<Transport> ConnectSimulator(const Place& place, const std::string& simulator) {
+  DdsSessionOptions options = Options(DdsRole::kSimulator, place);
   options.simulator = simulator;
   return std::make_unique<DdsTransport>(options);
 }
 
-std::unique_ptr<Transport> ConnectOperator(const std::string& world, std::uint32_t domain) {
-  return std::make_unique<DdsTransport>(Options(DdsRole::kOperator, world, domain));
+std::unique_ptr<Transport> ConnectOperator(const Place& place) {
+  return std::make_unique<DdsTransport>(Options(DdsRole::kOperator, place));
 }
 
-std::unique_ptr<Transport> ConnectWatcher(const std::string& world, std::uint32_t domain) {
-  return std::make_unique<DdsTransport>(Options(DdsRole::kWatcher, world, domain));
+std::unique_ptr<Transport> ConnectWatcher(const Place& place) {
+  return std::make_unique<DdsTransport>(Options(DdsRole::kWatcher, place));
 }
 
-std::unique_ptr<Receiver> ConnectStatusReader(const std::string& world, std::uint32_t domain) {
-  DdsSessionOptions session = Options(DdsRole::kMonitor, world, domain);
+std::unique_ptr<Receiver> ConnectStatusReader(const Place& place) {
+  DdsSessionOptions session = Options(DdsRole::kMonitor, place);
   session.reads_status_alone = true;
   return std::make_unique<DdsTransport>(session);
 }
 
 std::unique_ptr<Receiver> ConnectMonitor(const MonitorOptions& options) {
-  DdsSessionOptions session = Options(DdsRole::kMonitor, options.world, options.domain);
+  DdsSessionOptions session =
+      Options(DdsRole::kMonitor, {options.world, options.domain, options.credentials});
   session.reads_service = options.service;
   session.reads_simulators = options.simulators;
   return std::make_unique<DdsTransport>(session);

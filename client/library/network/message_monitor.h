@@ -52,6 +52,9 @@ class MessageMonitor {
   std::size_t Poll(std::chrono::nanoseconds timeout);
 
   bool service_alive() const { return receiver_->service_alive(); }
+  std::optional<std::string> TakeCredentialsWarning() {
+    return receiver_->TakeCredentialsWarning();
+  }
   /// A sentence for people: there is a service of another wire revision, of which nothing is read;
   /// empty: there is none.
   const std::string& unreadable() const { return unreadable_text_; }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "idl/messages.pb.h"
@@ -24,6 +26,9 @@ class Receiver {
 
   /// Whether a service of this world is alive.
   virtual bool service_alive() const = 0;
+
+  /// A sentence when the credentials with which it is connected end before long, or have ended.
+  virtual std::optional<std::string> TakeCredentialsWarning() { return std::nullopt; }
 
   /// The monotonic time by which timeouts count.
   virtual std::chrono::steady_clock::time_point Now() const {

@@ -56,6 +56,8 @@ const char* Name(NoticeKind kind) {
       return "ended";
     case NoticeKind::kBreach:
       return "breach";
+    case NoticeKind::kCredentials:
+      return "credentials";
   }
   return "unknown";
 }
@@ -223,6 +225,8 @@ void Notices::SkewedClock(std::int64_t since_ns) {
        "about its agents are void" +
            since);
 }
+
+void Notices::Credentials(const std::string& warning) { Tell(NoticeKind::kCredentials, warning); }
 
 std::optional<Notice> Notices::Take() {
   if (notices_.empty()) return std::nullopt;

@@ -78,6 +78,9 @@ class Notices {
   /// The service says that the simulator's clock is off: told once.
   void SkewedClock(std::int64_t since_ns);
 
+  /// The network says that the credentials end, or have ended: told each time.
+  void Credentials(const std::string& warning);
+
   /// The next notice that was not told yet; nullopt: none.
   std::optional<Notice> Take();
 

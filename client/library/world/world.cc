@@ -13,7 +13,8 @@ namespace collision::client {
 World World::Connect(const WorldOptions& options) {
   Validate(options);
   return World(std::make_shared<Implementation>(
-      options, ConnectSimulator(options.world, options.simulator, options.domain)));
+      options,
+      ConnectSimulator({options.world, options.domain, options.credentials}, options.simulator)));
 }
 
 World World::Connect(const WorldOptions& options, std::unique_ptr<Transport> transport) {

@@ -352,6 +352,7 @@ void World::Implementation::TellNotices() {
                  .other_program = waits_for_name(),
                  .ended = ended_because()},
                 transport_->Now());
+  if (const auto warning = transport_->TakeCredentialsWarning()) notices_.Credentials(*warning);
   while (!closed_) {
     const std::optional<Notice> notice = notices_.Take();
     if (!notice) return;

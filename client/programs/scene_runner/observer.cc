@@ -28,7 +28,7 @@ Observer::Observer(const ObserverOptions& options)
       every_event_(options.every_event),
       terminal_(isatty(STDOUT_FILENO) != 0),
       progress_at_(steady_clock::now()),
-      monitor_({options.world, options.domain, true, true}, Callbacks()) {}
+      monitor_({options.world, options.domain, true, true, options.credentials}, Callbacks()) {}
 
 MessageMonitor::Callbacks Observer::Callbacks() {
   MessageMonitor::Callbacks callbacks;

@@ -23,6 +23,7 @@ struct ObserverOptions {
   std::int64_t end_ns =
       std::numeric_limits<std::int64_t>::max();  ///< The run's: later events are not timed.
   bool real_time = false;                        ///< The world has a wall clock.
+  std::string credentials = {};                  ///< A folder, in a secured world.
   bool every_event = false;  ///< Print also the 201st possible, dismissed or withdrawn one.
 };
 

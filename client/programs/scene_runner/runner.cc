@@ -102,6 +102,36 @@ void Runner::UseLoopback() const {
   setenv("CYCLONEDDS_URI", ("file://" + profile.string()).c_str(), 1);
 }
 
+/// By the command that a user would give.
+void Runner::MakeCredentials() const {
+  std::vector<std::string> arguments = {(fs::path(options_.folders.bin) / "collisionctl").string(),
+                                        "make-certificates",
+                                        Path("credentials"),
+                                        "--world",
+                                        world_,
+                                        "--domain",
+                                        std::to_string(domain_),
+                                        "--service",
+                                        "--monitor",
+                                        "observer"};
+  for (const v1::SceneProcess& process : scene_.processes()) {
+    arguments.insert(arguments.end(), {"--simulator", process.name()});
+  }
+  ChildProcess making("make-certificates", arguments, Path("make-certificates.log"));
+  making.Finish(steady_clock::now() + kGrace);
+  if (making.succeeded()) return;
+  throw std::runtime_error("no credentials (" + making.Ending() + "):\n" +
+                           making.LastLines(kLinesShown));
+}
+
+std::string Runner::CredentialsOf(const std::string& program) const {
+  return options_.secure ? Path("credentials/" + program) : "";
+}
+
+void Runner::AddCredentials(const std::string& of, std::vector<std::string>* arguments) const {
+  if (options_.secure) arguments->insert(arguments->end(), {"--credentials", CredentialsOf(of)});
+}
+
 void Runner::StartService() {
   v1::Config config = scene_.config();
   config.set_world(world_);
@@ -110,12 +140,15 @@ void Runner::StartService() {
   std::string text;
   google::protobuf::TextFormat::PrintToString(config, &text);
   WriteFile(Path("collisiond.textproto"), text);
-  service_ = std::make_unique<ChildProcess>(
-      "collisiond",
-      std::vector<std::string>{(fs::path(options_.folders.bin) / "collisiond").string(), "--config",
-                               Path("collisiond.textproto"), "--world", world_, "--domain",
-                               std::to_string(domain_)},
-      Path("collisiond.log"));
+  std::vector<std::string> arguments = {(fs::path(options_.folders.bin) / "collisiond").string(),
+                                        "--config",
+                                        Path("collisiond.textproto"),
+                                        "--world",
+                                        world_,
+                                        "--domain",
+                                        std::to_string(domain_)};
+  AddCredentials("service", &arguments);
+  service_ = std::make_unique<ChildProcess>("collisiond", arguments, Path("collisiond.log"));
 }
 
 void Runner::StartSimulator(const v1::SceneProcess& process) {
@@ -133,6 +166,7 @@ void Runner::StartSimulator(const v1::SceneProcess& process) {
         std::string("--traffic"), Path(process.name() + ".traffic")}) {
     arguments.push_back(argument);
   }
+  AddCredentials("simulator-" + process.name(), &arguments);
   std::istringstream more(options_.arguments);
   for (std::string argument; more >> argument;) arguments.push_back(argument);
   if (options_.stream && !HasOption(arguments, "--stream")) arguments.push_back("--stream");
@@ -292,8 +326,15 @@ RunResult Runner::Run() {
     std::fflush(stdout);
   }
   const auto started = steady_clock::now();
-  observer_ = std::make_unique<Observer>(ObserverOptions{world_, domain_, start_ns_, EndTime(),
-                                                         options_.real_time, options_.every_event});
+  if (options_.secure) MakeCredentials();
+  observer_ =
+      std::make_unique<Observer>(ObserverOptions{.world = world_,
+                                                 .domain = domain_,
+                                                 .origin_ns = start_ns_,
+                                                 .end_ns = EndTime(),
+                                                 .real_time = options_.real_time,
+                                                 .credentials = CredentialsOf("monitor-observer"),
+                                                 .every_event = options_.every_event});
   StartService();
   for (const v1::SceneProcess& process : scene_.processes()) StartSimulator(process);
   const Watch watch = WatchToEnd();

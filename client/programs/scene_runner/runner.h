@@ -19,6 +19,7 @@ struct RunnerOptions {
   double seconds = 0;  ///< 0: as the scene says.
   bool real_time = false;
   bool stream = false;  ///< Simulators send every state, not only those the service needs.
+  bool secure = false;  ///< In a secured world, each program with credentials of its own.
   std::optional<std::uint32_t> domain;  ///< Default: one that depends on this process.
   std::string config;        ///< Fields that override the scene's configuration, as protobuf text.
   std::string arguments;     ///< Further ones of every simulator, separated by spaces.
@@ -48,6 +49,11 @@ class Runner {
 
   std::string Path(const std::string& file) const;
   void UseLoopback() const;
+  /// The scene's credentials, by a new authority in a folder that is removed with the rest.
+  void MakeCredentials() const;
+  /// Adds the option that names the folder `of` one program, if the scene is secured.
+  void AddCredentials(const std::string& of, std::vector<std::string>* arguments) const;
+  std::string CredentialsOf(const std::string& program) const;
   void StartService();
   void StartSimulator(const v1::SceneProcess& process);
   std::int64_t EndTime() const;

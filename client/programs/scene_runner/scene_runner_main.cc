@@ -39,6 +39,8 @@ int main(int argc, char** argv) {
   app.add_flag("--real-time", options.real_time, "In real time instead of lock-step");
   app.add_flag("--stream", options.stream,
                "Simulators send every state, not only those that the service needs: to compare");
+  app.add_flag("--secure", options.secure,
+               "In a secured world: each program has credentials of its own, made for this run");
   app.add_option("--config", options.config,
                  "Fields that override the scene's service configuration, as protobuf text: "
                  "'time_budget_us: 100'");

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "client/library/identity/library_version.h"
+#include "idl/credentials/files.h"
 #include "idl/limits.h"
 
 namespace collision::client {
@@ -47,7 +48,7 @@ CLI::Validator IdentifierWord() {
 }
 
 void AddWorldOptions(CLI::App* app, const std::string& purpose, std::string* world,
-                     std::uint32_t* domain) {
+                     std::uint32_t* domain, std::string* credentials) {
   app->add_option("--world", *world, purpose)
       ->envname("COLLISION_WORLD")
       ->check(IdentifierWord())
@@ -56,10 +57,14 @@ void AddWorldOptions(CLI::App* app, const std::string& purpose, std::string* wor
       ->envname("COLLISION_DOMAIN")
       ->check(DomainRange())
       ->capture_default_str();
+  app->add_option("--credentials", *credentials,
+                  "Folder of this program's credentials in a secured world")
+      ->envname(credentials::kVariable)
+      ->type_name("DIR");
 }
 
 void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
-  AddWorldOptions(app, "World to join", &options->world, &options->domain);
+  AddWorldOptions(app, "World to join", &options->world, &options->domain, &options->credentials);
   app->add_option("--simulator", options->simulator, "Name of this simulator, unique in the world")
       ->required()
       ->check(IdentifierWord());

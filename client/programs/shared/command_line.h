@@ -20,10 +20,10 @@ CLI::Validator DomainRange();
 /// The name of a world or of a simulator (idl/limits.h).
 CLI::Validator IdentifierWord();
 
-/// Adds --world and --domain, which may be set for all programs by COLLISION_WORLD and
-/// COLLISION_DOMAIN.
+/// Adds --world, --domain and --credentials, which may be set for all programs by COLLISION_WORLD,
+/// COLLISION_DOMAIN and COLLISION_CREDENTIALS.
 void AddWorldOptions(CLI::App* app, const std::string& purpose, std::string* world,
-                     std::uint32_t* domain);
+                     std::uint32_t* domain, std::string* credentials);
 
 /// Adds --world, --simulator, --domain, --lock-step, --real-time, ... to the command line.
 void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options);

@@ -37,6 +37,7 @@ World Connect(const SimulatorOptions& options) {
   world.world = options.world;
   world.simulator = options.simulator;
   world.domain = options.domain;
+  world.credentials = options.credentials;
   world.lock_step = !options.real_time;
   world.on_demand = !options.stream;
   world.wall_clock = CarriedWallClock;

@@ -16,6 +16,7 @@ struct SimulatorOptions {
   std::string world = "default";
   std::string simulator;
   std::uint32_t domain = 0;
+  std::string credentials;     ///< Folder; empty: none.
   bool real_time = false;      ///< Wall-clock stamps; otherwise lock-step.
   std::int64_t start_ns = -1;  ///< In real time: the run's start since 1970; -1: now.
   double speed = 0;     ///< Lock-step: at most this many simulated seconds a second; 0: no limit.

@@ -11,6 +11,7 @@
 #include "client/library/notices/notices.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
+#include "client/programs/tools/certificates/command.h"
 #include "client/programs/tools/collisionctl/agents_watcher.h"
 #include "client/programs/tools/collisionctl/doctor/doctor.h"
 #include "client/programs/tools/collisionctl/events/event_printer.h"
@@ -26,6 +27,7 @@
 #include "client/programs/tools/collisionctl/status/status_details.h"
 #include "client/programs/tools/collisionctl/status/status_page.h"
 #include "client/programs/tools/collisionctl/top/top.h"
+#include "client/programs/tools/collisionctl/view_options.h"
 #include "client/programs/tools/collisionctl/why/agent_lookup.h"
 #include "client/programs/tools/collisionctl/why/why_page.h"
 #include "client/programs/tools/sphere_tree/command.h"
@@ -42,24 +44,6 @@ constexpr milliseconds kFollowWait{250};  // Longest time to notice Ctrl-C.
 constexpr milliseconds kBusy{1000};       // A world that is never quiet: likewise.
 
 volatile std::sig_atomic_t stopped = 0;
-
-struct Options {
-  MonitorOptions monitor{.simulators = true};
-  double timeout_s = 3;
-  bool json = false;
-  bool follow = false;
-  bool watch = false;
-  bool all = false;
-  TopOptions top_view;
-  std::string pair[2];  ///< Of why.
-  bool explain = false;
-  bool expected = false;
-  std::vector<std::string> agents, statuses, levels;
-  std::optional<double> within_s;
-  KeptOptions kept;
-  std::optional<std::size_t> top;
-  double period_s = 1;
-};
 
 /// Gathers the values that late readers receive, until `enough` and quiet, or until the deadline.
 template <typename Enough>
@@ -107,7 +91,7 @@ std::optional<std::int64_t> Nanoseconds(const std::optional<double>& seconds) {
   return Seconds(*seconds).count();
 }
 
-EventFilter FilterOf(const Options& options) {
+EventFilter FilterOf(const ViewOptions& options) {
   EventFilter filter{.agents = options.agents,
                      .levels = options.levels,
                      .within_ns = Nanoseconds(options.within_s),
@@ -118,10 +102,14 @@ EventFilter FilterOf(const Options& options) {
   return filter;
 }
 
+Place PlaceOf(const MonitorOptions& options) {
+  return {options.world, options.domain, options.credentials};
+}
+
 /// Prints the agents once a period, with states that are no older, until Ctrl-C.
-void WatchAgents(MessageMonitor* monitor, const WorldView& view, const Options& options) {
+void WatchAgents(MessageMonitor* monitor, const WorldView& view, const ViewOptions& options) {
   const std::chrono::nanoseconds period = Seconds(options.period_s);
-  AgentsWatcher watcher(ConnectWatcher(options.monitor.world, options.monitor.domain), period);
+  AgentsWatcher watcher(ConnectWatcher(PlaceOf(options.monitor)), period);
   auto due = std::chrono::steady_clock::now() + period;
   while (stopped == 0 && std::cout) {
     const auto now = std::chrono::steady_clock::now();
@@ -135,7 +123,7 @@ void WatchAgents(MessageMonitor* monitor, const WorldView& view, const Options& 
 }
 
 /// Says why a pair meets when it does. Returns the exit code.
-int PrintWhy(const Options& options, WorldView* view) {
+int PrintWhy(const ViewOptions& options, WorldView* view) {
   try {
     const AgentView a = FindAgent(*view, options.pair[0]), b = FindAgent(*view, options.pair[1]);
     if (IdOf(a) == IdOf(b)) throw NoSuchAgent("A and B are the same agent, " + options.pair[0]);
@@ -148,7 +136,7 @@ int PrintWhy(const Options& options, WorldView* view) {
   }
 }
 
-void Print(const std::string& command, const Options& options, WorldView* view) {
+void Print(const std::string& command, const ViewOptions& options, WorldView* view) {
   if (command == "status") {
     std::cout << (options.json  ? StatusJson(*view) + "\n"
                   : options.all ? StatusDetails(*view)
@@ -164,10 +152,12 @@ void Print(const std::string& command, const Options& options, WorldView* view) 
   }
 }
 
-int Run(const std::string& command, const Options& options) {
+int Run(const std::string& command, const ViewOptions& options) {
   std::cerr << "collisionctl: " << PlaceText(options.monitor.world, options.monitor.domain) << '\n';
   WorldView view;
   MessageMonitor monitor(options.monitor, view.Callbacks());
+  const auto warning = monitor.TakeCredentialsWarning();
+  if (warning) std::cerr << "collisionctl: " << *warning << '\n';
   const Deadline deadline(Seconds(options.timeout_s));
   if (!WaitForService(&monitor, view, deadline)) {
     if (stopped != 0) return 0;
@@ -220,107 +210,6 @@ int Run(const std::string& command, const Options& options) {
   return kExitOutputFailed;
 }
 
-/// Words of a status, one or several, separated by commas.
-CLI::Validator StatusWord() {
-  const auto check = [](const std::string& text) {
-    if (StatusOf(text)) return std::string();
-    return "\"" + text + "\", allowed: possible, confirmed, dismissed, undecided, withdrawn, ended";
-  };
-  return CLI::Validator(check, "STATUS");
-}
-
-/// The name of an agent, alone or behind its simulator's.
-CLI::Validator AgentWord() {
-  const auto check = [](const std::string& text) {
-    if (!text.empty() && text.size() <= 2 * wire::kNameMax + 1) return std::string();
-    return "\"" + text + "\", allowed: AGENT or SIMULATOR:AGENT, 1 to 129 bytes";
-  };
-  return CLI::Validator(check, "NAME");
-}
-
-void AddEvents(CLI::App* app, Options* options) {
-  constexpr double kSecondsMax = 1e9;
-  CLI::App* events = app->add_subcommand("events", "The current events");
-  events->add_flag("--follow", options->follow, "Print every further revision as it arrives");
-  events->add_flag("--explain", options->explain, "One plain sentence for each event");
-  events
-      ->add_option("--agent", options->agents,
-                   "Only events of this agent, on either side: AGENT or SIMULATOR:AGENT")
-      ->check(AgentWord());
-  events
-      ->add_option("--status", options->statuses,
-                   "Only these: possible, confirmed, dismissed, undecided, withdrawn, ended")
-      ->delimiter(',')
-      ->check(StatusWord());
-  events->add_flag("--expected", options->expected,
-                   "Of possible events only those in which the two touch if both keep the motion "
-                   "that they told");
-  events
-      ->add_option("--level", options->levels,
-                   "Only events of these levels of the service; contact: of contact itself")
-      ->delimiter(',');
-  events
-      ->add_option("--within", options->within_s,
-                   "Only what begins at most so many seconds ahead of now, 0 to 1e9")
-      ->check(Finite(kSecondsMax, true));
-  AddKeptEvents(events, &options->kept);
-  events
-      ->add_option(
-          "--top", options->top,
-          "Only the so many that are nearest in time, 1 to 4096; expected ones first, then "
-          "the nearest")
-      ->check(WholeBetween(1, EventSelection::kRememberedMax));
-}
-
-void AddTop(CLI::App* app, Options* options) {
-  constexpr double kPeriodMin = 0.1, kPeriodMax = 3600;
-  constexpr std::size_t kRowsMax = 1000;
-  CLI::App* top = app->add_subcommand(
-      "top", "The pairs that are nearest in time, drawn anew every period until Ctrl-C or q");
-  top->add_option("--rows", options->top_view.rows, "Pairs to show at most, 1 to 1000")
-      ->check(WholeBetween(1, kRowsMax))
-      ->capture_default_str();
-  top->add_option("--period", options->period_s, "Seconds between two pictures, 0.1 to 3600")
-      ->check(Between(kPeriodMin, kPeriodMax))
-      ->capture_default_str();
-  top->add_flag("--once", options->top_view.once, "Print it once");
-}
-
-void AddWhy(CLI::App* app, Options* options) {
-  CLI::App* why = app->add_subcommand(
-      "why", "Of two agents: their bounds, when they can meet, and what would narrow it");
-  why->add_option("A", options->pair[0], "AGENT or SIMULATOR:AGENT")
-      ->required()
-      ->check(AgentWord());
-  why->add_option("B", options->pair[1], "Likewise")->required()->check(AgentWord());
-}
-
-/// The options, and the commands that show something.
-void AddViews(CLI::App* app, Options* options) {
-  AddWorldOptions(app, "World to look at", &options->monitor.world, &options->monitor.domain);
-  app->add_option("--timeout", options->timeout_s, "Seconds to wait for a service, 0 to 1e6")
-      ->check(Between(0.0, 1e6))
-      ->capture_default_str();
-  app->add_flag("--json", options->json, "JSON for programs: one document, or one line per event");
-  app->require_subcommand(1);
-  app->fallthrough();
-  app->add_subcommand("status", "In 12 lines: what is wrong and what to do, service, simulators")
-      ->add_flag("--all", options->all, "All that the service tells, with every simulator");
-  CLI::App* agents = app->add_subcommand("agents", "Table of all agents");
-  CLI::Option* watch = agents->add_flag(
-      "--watch", options->watch,
-      "Print it again and again; meanwhile simulators send states at least once a period");
-  agents->add_option("--period", options->period_s, "Seconds between two tables, 0.02 to 3600")
-      ->check(Between(1e-9 * wire::kWatchPeriodMin, 1e-9 * wire::kWatchPeriodMax))
-      ->needs(watch)
-      ->capture_default_str();
-  app->add_subcommand("shapes", "Table of all shapes that agents have");
-  app->add_subcommand("earliest", "The earliest intersection that is possible now");
-  AddEvents(app, options);
-  AddTop(app, options);
-  AddWhy(app, options);
-}
-
 /// To the help of the program all examples, to that of a command its own.
 void AddExamples(CLI::App* app) {
   app->footer(AllExamples());
@@ -330,23 +219,25 @@ void AddExamples(CLI::App* app) {
   }
 }
 
-HealthOptions With(const Options& options, HealthOptions health) {
+HealthOptions With(const ViewOptions& options, HealthOptions health) {
   health.world = options.monitor.world;
   health.domain = options.monitor.domain;
+  health.credentials = options.monitor.credentials;
   health.json = options.json;
   return health;
 }
 
-DoctorOptions With(const Options& options, DoctorOptions doctor) {
+DoctorOptions With(const ViewOptions& options, DoctorOptions doctor) {
   doctor.world = options.monitor.world;
   doctor.domain = options.monitor.domain;
+  doctor.credentials = options.monitor.credentials;
   doctor.timeout_s = options.timeout_s;
   doctor.json = options.json;
   return doctor;
 }
 
 /// The events of the journal, for which no service is needed.
-int PrintJournal(const Options& options) {
+int PrintJournal(const ViewOptions& options) {
   if (options.follow) {
     std::cerr << "collisionctl: --follow shows what comes, the journal what was: give one\n";
     return kExitUsage;
@@ -356,11 +247,11 @@ int PrintJournal(const Options& options) {
                            {.json = options.json, .explain = options.explain}, FilterOf(options));
 }
 
-int Operate(const Options& options, const v1::OperatorCommand& command) {
-  const MonitorOptions& place = options.monitor;
+int Operate(const ViewOptions& options, const v1::OperatorCommand& command) {
+  const Place place = PlaceOf(options.monitor);
   try {
     std::cerr << "collisionctl: " << PlaceText(place.world, place.domain) << '\n';
-    return RunOperatorRequest(place.world, place.domain, options.timeout_s, command, options.json);
+    return RunOperatorRequest(place, options.timeout_s, command, options.json);
   } catch (const std::runtime_error& error) {
     std::cerr << "collisionctl: " << error.what() << '\n';
     return kExitUnavailable;
@@ -369,7 +260,7 @@ int Operate(const Options& options, const v1::OperatorCommand& command) {
 
 int Main(int argc, char** argv) {
   CLI::App app("Shows what collisiond and the simulators of a world publish.", "collisionctl");
-  Options options;
+  ViewOptions options;
   AddViews(&app, &options);
   std::string evicted;
   CLI::App* evict = app.add_subcommand("evict", "Remove a simulator, also if its process lives");
@@ -380,6 +271,8 @@ int Main(int argc, char** argv) {
   const CLI::App* sphere_tree = AddSphereTreeCommand(&app, &tree);
   SuggestBoundsOptions bounds;
   const CLI::App* suggest_bounds = AddSuggestBoundsCommand(&app, &bounds);
+  CertificateOptions certificates;
+  const CLI::App* make_certificates = AddCertificatesCommand(&app, &certificates);
   HealthOptions health;
   const CLI::App* health_command = AddHealthCommand(&app, &health);
   DoctorOptions doctor;
@@ -403,9 +296,11 @@ int Main(int argc, char** argv) {
     if (options.json) tree.report = "json";
     return RunSphereTree(tree);
   }
+  if (make_certificates->parsed()) return RunMakeCertificates(certificates, GivenPlace(app));
   if (suggest_bounds->parsed()) {
     const MonitorOptions& place = options.monitor;
-    return RunSuggestBounds(bounds, {place.world, place.domain, options.timeout_s}, options.json);
+    return RunSuggestBounds(
+        bounds, {place.world, place.domain, options.timeout_s, place.credentials}, options.json);
   }
   if (evict->parsed() || restart->parsed()) {
     const auto kind = evict->parsed() ? v1::OPERATOR_EVICT : v1::OPERATOR_RESTART_TIME;

@@ -9,6 +9,7 @@
 #include "dds/ddsi/ddsi_keyhash.h"
 #include "dds/ddsi/ddsi_serdata.h"
 #include "idl/dds/inbox/senders.h"
+#include "idl/dds/security/domain_facts.h"
 
 namespace collision::dds {
 namespace {
@@ -67,6 +68,14 @@ struct Inbox::History {
     inbox.writers_.erase(writer->iid);
   }
 
+  /// In the thread that makes the reader.
+  static dds_return_t Associate(dds_rhc* rhc, dds_reader*, const ddsi_sertype* type, ddsi_tkmap*) {
+    const char* open_interface = CollisionOpenInterface(type);
+    Of(rhc).inbox.load()->domain_ = {open_interface == nullptr ? "" : open_interface,
+                                     CollisionProfileSecures(type) != 0};
+    return DDS_RETCODE_OK;
+  }
+
   /// The readers end together, and DDS wants all samples back before it ends itself.
   static void Free(ddsi_rhc* rhc) {
     const std::unique_ptr<History> self(&Of(rhc));
@@ -95,9 +104,7 @@ const dds_rhc_ops Inbox::kOperations = {
     .add_readcondition = [](dds_rhc*, dds_readcond*) { return false; },
     .remove_readcondition = [](dds_rhc*, dds_readcond*) {},
     .lock_samples = [](dds_rhc*) -> std::uint32_t { return 0; },
-    .associate = [](dds_rhc*, dds_reader*, const ddsi_sertype*, ddsi_tkmap*) -> dds_return_t {
-      return DDS_RETCODE_OK;
-    }};
+    .associate = &History::Associate};
 
 dds_rhc* Inbox::MakeHistory(std::size_t topic, std::size_t depth, bool keeps_place) {
   auto history = std::make_unique<History>();

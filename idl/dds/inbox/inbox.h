@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "dds/dds.h"
@@ -50,6 +51,12 @@ struct InboxLoss {
   SenderLoss loss;
 };
 
+/// Of the domain of the readers.
+struct DomainFacts {
+  std::string open_interface;    ///< The first one that leads off this machine; empty: none.
+  bool profile_secures = false;  ///< The network profile does.
+};
+
 /// The history cache of several readers. That of Cyclone DDS keeps an instance for every key ever
 /// written or disposed of while its writer lives, hands samples on instance by instance, and
 /// knows no senders; this one keeps what waits, in SenderQueues, and nothing else. A reader with it
@@ -84,6 +91,9 @@ class Inbox {
   /// How long until something can be taken [ns]; nullopt: nothing waits.
   std::optional<std::int64_t> UntilReady();
 
+  /// Once a reader has been made.
+  const DomainFacts& domain() const { return domain_; }
+
   /// True once after much has waited and is gone: memory can be given back.
   bool TakeRelief();
 
@@ -97,6 +107,7 @@ class Inbox {
   void Put(const History& history, const ddsi_writer_info& writer, ddsi_serdata* data);
 
   dds_entity_t guard_ = 0;
+  DomainFacts domain_;
   mutable std::mutex mutex_;
   // All below are guarded by mutex_.
   bool triggered_ = false;  ///< The guard condition, since the last Take().

@@ -52,7 +52,10 @@ std::string PartitionOf(dds_entity_t reader, dds_instance_handle_t writer) {
 
 void Senders::Add(dds_entity_t reader, dds_instance_handle_t writer, std::uint64_t sender) {
   if (writers_.size() >= std::max(writers_until_cleaning_, kWritersMin)) DropEnded();
-  writers_.try_emplace(writer, Writer{reader, sender});
+  const auto [added, is_new] = writers_.try_emplace(writer, Writer{reader, sender});
+  // Once, since it takes as long as some samples; it cannot change: DDS Security checks it when the
+  // writer is found.
+  if (is_new && looks_up_) added->second.partition = dds::PartitionOf(reader, writer);
   programs_.try_emplace(sender);
 }
 

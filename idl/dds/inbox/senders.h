@@ -23,6 +23,14 @@ std::string PartitionOf(dds_entity_t reader, dds_instance_handle_t writer);
 /// that has left can no longer be looked up while its last samples still wait. One thread.
 class Senders {
  public:
+  /// From now on the partition of each writer that is added is known.
+  void LookUpPartitions() { looks_up_ = true; }
+
+  /// The partition of a writer that was added; empty: it had left before.
+  const std::string& PartitionOf(dds_instance_handle_t writer) const {
+    return writers_.at(writer).partition;
+  }
+
   /// A writer of which samples have arrived.
   void Add(dds_entity_t reader, dds_instance_handle_t writer, std::uint64_t sender);
 
@@ -47,6 +55,7 @@ class Senders {
   struct Writer {
     dds_entity_t reader;  // the reader that received the writer's samples
     std::uint64_t sender;
+    std::string partition = {};  // after LookUpPartitions()
   };
   struct Program {
     std::set<std::uint64_t> simulators;
@@ -58,6 +67,7 @@ class Senders {
   std::unordered_map<dds_instance_handle_t, Writer> writers_;
   std::unordered_map<std::uint64_t, Program> programs_;  // one for every sender in writers_
   std::size_t writers_until_cleaning_ = 0;
+  bool looks_up_ = false;
 };
 
 }  // namespace collision::dds

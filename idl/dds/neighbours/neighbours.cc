@@ -15,6 +15,7 @@
 #include "dds/ddsrt/log.h"
 #include "idl/dds/endpoints.h"
 #include "idl/dds/entity.h"
+#include "idl/dds/security/credentials.h"
 #include "idl/dds/topics.h"
 
 namespace collision {
@@ -156,9 +157,11 @@ std::string OwnDdsAddress(std::uint32_t domain) {
   return address;
 }
 
-DdsLookout::DdsLookout(std::uint32_t domain)
-    : participant_(dds::Check(dds_create_participant(domain, nullptr, nullptr),
-                              "DDS participant in domain " + std::to_string(domain))) {
+DdsLookout::DdsLookout(std::uint32_t domain, const std::string& credentials) {
+  const dds::Qos qos = dds::MakeQos();
+  if (!credentials.empty()) dds::Credentials(credentials).Apply(qos.get());
+  participant_ = dds::Check(dds_create_participant(domain, qos.get(), nullptr),
+                            "DDS participant in domain " + std::to_string(domain));
   const auto read = [this](dds_entity_t topic) {
     return dds_create_reader(participant_, topic, nullptr, nullptr);
   };

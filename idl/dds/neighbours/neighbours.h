@@ -40,8 +40,9 @@ std::string OwnDdsAddress(std::uint32_t domain);
 /// A participant that looks on. One thread.
 class DdsLookout {
  public:
-  /// Throws std::runtime_error, with the cause, if DDS is not available in this domain.
-  explicit DdsLookout(std::uint32_t domain);
+  /// `credentials`: a folder of them; empty: none. Throws std::runtime_error, with the cause, if
+  /// DDS is not available in this domain.
+  explicit DdsLookout(std::uint32_t domain, const std::string& credentials = {});
   DdsLookout(DdsLookout&& other) noexcept;
   DdsLookout& operator=(DdsLookout&&) = delete;
   ~DdsLookout();

@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "idl/credentials/files.h"
 #include "idl/recording/utc.h"
 #include "server/config/config.h"
 #include "server/config/config_options.h"
@@ -112,6 +113,11 @@ void Define(CLI::App* app, Options* options) {
              "--domain", options->domain,
              "DDS domain, instead of the configured one; default: COLLISION_DOMAIN, if set")
           ->check(AllowedBy("domain"));
+  app->add_option("--credentials", options->credentials,
+                  "Folder of the service's credentials, instead of the configured one; default: "
+                  "COLLISION_CREDENTIALS, if set")
+      ->type_name("DIR")
+      ->check(AllowedBy("credentials_dir"));
   app->add_option("--log-level", options->log_level, "Log level, instead of the configured one")
       ->check(AllowedBy("log_level"));
   auto* record = app->add_option("--record", options->record_file,
@@ -151,6 +157,9 @@ std::optional<std::string> Variable(const char* name, const char* field) {
 void TakeEnvironment(Options* options) {
   if (options->calibrate || options->reload || !options->replay_file.empty()) return;
   if (!options->world) options->world = Variable("COLLISION_WORLD", "world");
+  if (!options->credentials) {
+    options->credentials = Variable(credentials::kVariable, "credentials_dir");
+  }
   const auto domain = options->domain ? std::nullopt : Variable("COLLISION_DOMAIN", "domain");
   if (domain) options->domain = static_cast<std::uint32_t>(std::stoul(*domain));
 }

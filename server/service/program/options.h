@@ -18,6 +18,7 @@ struct Options {
   /// These go before the configuration's; from the environment if the command line is silent.
   std::optional<std::string> world;
   std::optional<std::uint32_t> domain;
+  std::optional<std::string> credentials;
   std::optional<std::string> log_level;
   std::string record_file;  ///< Empty: nothing is recorded.
   std::string replay_file;  ///< Or a folder of segments; empty: the daemon serves.

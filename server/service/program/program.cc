@@ -108,6 +108,30 @@ dds::SenderLimits SenderLimitsOf(const v1::Config& config) {
           .waiting_bytes_max = config.waiting_mb_max() * std::size_t{1'000'000}};
 }
 
+DdsBusOptions BusOptionsOf(const v1::Config& config, bool stands_by) {
+  return {.lease = std::chrono::nanoseconds(ToNanoseconds(config.lease_s())),
+          .sender_limits = SenderLimitsOf(config),
+          .stands_by = stands_by,
+          .credentials = config.credentials_dir()};
+}
+
+void LogSecurity(const DdsBus& bus, const v1::Config& config) {
+  if (!config.credentials_dir().empty()) {
+    spdlog::info(
+        "secured: only programs with credentials of the same authority are heard; ours: {}",
+        config.credentials_dir());
+  } else if (bus.is_secured()) {
+    spdlog::info("secured by the network profile");
+  } else if (!bus.open_interface().empty()) {
+    spdlog::warn(
+        "not secured, and heard beyond this machine (network interface {}): whoever reaches it can "
+        "write in any name. Keep it to this machine (cyclonedds-loopback.xml), or give all "
+        "programs "
+        "of the world credentials (collisionctl make-certificates, credentials_dir)",
+        bus.open_interface());
+  }
+}
+
 /// Null: there is no folder for it, or no room: the service goes on without. Requires the lock of
 /// the journal.
 std::unique_ptr<Quarantine> OpenQuarantine(const v1::Config& config, const Journal* journal) {
@@ -156,6 +180,7 @@ ConfigResult Load(const Options& options) {
   if (options.world) loaded.config.set_world(*options.world);
   if (options.domain) loaded.config.set_domain(*options.domain);
   if (options.log_level) loaded.config.set_log_level(*options.log_level);
+  if (options.credentials) loaded.config.set_credentials_dir(*options.credentials);
   return loaded;
 }
 
@@ -212,12 +237,12 @@ std::optional<int> ServeOnce(const v1::Config& config, const Options& options, b
   const KeptInStateDir kept = OpenKept(config, claim);
   std::unique_ptr<DdsBus> bus;
   try {
-    bus = std::make_unique<DdsBus>(config.world(), config.domain(),
-                                   std::chrono::nanoseconds(ToNanoseconds(config.lease_s())),
-                                   SenderLimitsOf(config), stands_by);
+    bus =
+        std::make_unique<DdsBus>(config.world(), config.domain(), BusOptionsOf(config, stands_by));
   } catch (const std::runtime_error& error) {
     return Fail(kExitUnavailable, error.what());
   }
+  LogSecurity(*bus, config);
   return Serve(config, *bus,
                {.recorder = recorder.get(),
                 .flight = kept.flight.get(),

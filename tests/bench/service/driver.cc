@@ -11,7 +11,6 @@
 namespace collision::bench {
 namespace {
 
-constexpr char kSimulator[] = "bench";
 constexpr std::uint32_t kChunk = 64;
 constexpr std::uint32_t kSingles = 1024;  // chunks of one agent come after those of 64
 constexpr double kSpacing = 100;          // [m]
@@ -22,13 +21,13 @@ constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 v1::AgentDescription DescriptionOf(std::uint32_t slot) {
   v1::AgentDescription wire;
-  wire.set_simulator_id(SimulatorId(kSimulator));
+  wire.set_simulator_id(SimulatorId(ServiceDriver::kSimulator));
   wire.set_slot(slot);
   wire.set_run(1);
   wire.set_generation(1);
   wire.set_revision(1);
   wire.set_sequence(slot + 1);
-  wire.set_simulator_name(kSimulator);
+  wire.set_simulator_name(ServiceDriver::kSimulator);
   wire.set_agent_name("a" + std::to_string(slot));
   wire.set_radius_m(1);
   wire.set_acceleration_max_m_s2(kAccelerationMax);
@@ -38,16 +37,20 @@ v1::AgentDescription DescriptionOf(std::uint32_t slot) {
 
 }  // namespace
 
-ServiceDriver::ServiceDriver(const std::string& world, std::uint32_t domain, std::uint32_t agents)
-    : session_(
-          {.world = world, .domain = domain, .role = DdsRole::kSimulator, .simulator = kSimulator}),
+ServiceDriver::ServiceDriver(const std::string& world, std::uint32_t domain, std::uint32_t agents,
+                             const std::string& credentials)
+    : session_({.world = world,
+                .domain = domain,
+                .role = DdsRole::kSimulator,
+                .simulator = kSimulator,
+                .credentials = credentials}),
       agents_(agents),
       acknowledged_(agents, 0) {}
 
 // `shift`: how far from its place towards its neighbour the first of them is [m].
 void ServiceDriver::Tell(std::uint32_t first, std::uint32_t count, bool jumps, double shift) {
   v1::AgentStates chunk;
-  chunk.set_simulator_id(SimulatorId(kSimulator));
+  chunk.set_simulator_id(SimulatorId(ServiceDriver::kSimulator));
   chunk.set_run(1);
   chunk.set_chunk(count == 1 ? kSingles + first : first / kChunk);
   for (std::uint32_t slot = first; slot < first + count; ++slot) {
@@ -69,9 +72,9 @@ void ServiceDriver::Tell(std::uint32_t first, std::uint32_t count, bool jumps, d
 
 void ServiceDriver::TellClock() {
   v1::SimulatorClock clock;
-  clock.set_simulator_id(SimulatorId(kSimulator));
+  clock.set_simulator_id(SimulatorId(ServiceDriver::kSimulator));
   clock.set_run(1);
-  clock.set_simulator_name(kSimulator);
+  clock.set_simulator_name(ServiceDriver::kSimulator);
   clock.set_clock_ns(WallNs());
   clock.set_states_sequence(sequence_);
   clock.set_descriptions_sequence(agents_);

@@ -13,7 +13,11 @@ namespace collision::bench {
 
 class ServiceDriver {
  public:
-  ServiceDriver(const std::string& world, std::uint32_t domain, std::uint32_t agents);
+  static constexpr char kSimulator[] = "bench";
+
+  /// `credentials`: a folder; empty: none.
+  ServiceDriver(const std::string& world, std::uint32_t domain, std::uint32_t agents,
+                const std::string& credentials = "");
 
   /// Describes all agents and tells their states, until all are acknowledged. False: not within
   /// `seconds`.

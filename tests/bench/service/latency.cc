@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "tests/bench/harness/measure.h"
+#include "tests/bench/service/cell.h"
 #include "tests/bench/service/driver.h"
 #include "tests/bench/service/parts.h"
 #include "tests/bench/service/process.h"
@@ -18,21 +19,16 @@ constexpr double kAnswerSeconds = 2;
 /// announce_within_s (2 s) for states that may tell more of the last one.
 constexpr double kSettleSeconds = 2.5;
 
-struct Cell {
-  std::vector<double> latencies;  // [s]
-  std::vector<double> rounds;     // [s]
-  double cpu = 0;                 // of the service, during the rounds [s]
-  std::uint32_t lost = 0;         // events that did not come
-};
-
 /// The cell's share of the whole time [s].
 double Budget(const ServiceSettings& settings) { return settings.quick ? 0.7 : 15; }
 
-std::optional<Cell> Measure(const ServiceSettings& settings, const std::string& contestant,
-                            std::uint32_t agents) {
-  const std::string world = "bench-" + std::to_string(getpid()) + "-" + contestant;
-  ServiceProcess service(contestant, world, settings.domain);
-  ServiceDriver driver(world, settings.domain, agents);
+}  // namespace
+
+std::optional<Cell> MeasureCell(const ServiceSettings& settings, const std::string& contestant,
+                                const std::string& world, std::uint32_t agents,
+                                const Access& access) {
+  ServiceProcess service(contestant, world, settings.domain, access.service);
+  ServiceDriver driver(world, settings.domain, agents, access.simulator);
   if (!driver.Join(kJoinSeconds)) return std::nullopt;
   Cell cell;
   const Stopwatch latency;
@@ -59,14 +55,26 @@ std::optional<Cell> Measure(const ServiceSettings& settings, const std::string& 
   return cell;
 }
 
+namespace {
+
 double Sum(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value;
   return sum;
 }
 
+}  // namespace
+
 double UpdatesPerSecond(const Cell& cell, std::uint32_t agents) {
   return agents * static_cast<double>(cell.rounds.size()) / Sum(cell.rounds);
+}
+
+namespace {
+
+std::optional<Cell> Measure(const ServiceSettings& settings, const std::string& contestant,
+                            std::uint32_t agents) {
+  const std::string world = "bench-" + std::to_string(getpid()) + "-" + contestant;
+  return MeasureCell(settings, contestant, world, agents);
 }
 
 /// Whatever takes more of the time.

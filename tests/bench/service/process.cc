@@ -26,14 +26,14 @@ using namespace std::chrono_literals;
 constexpr std::uint32_t kAgentsMax = 20000;
 constexpr std::size_t kBatchMax = 65536;
 
-void ServeOurs(const std::string& world, std::uint32_t domain) {
+void ServeOurs(const std::string& world, std::uint32_t domain, const std::string& credentials) {
   v1::Config config;
   config.set_world(world);
   config.set_domain(domain);
   config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   config.set_agents_max(kAgentsMax);
   config = server::CompleteConfig(config);
-  server::DdsBus bus(world, domain);
+  server::DdsBus bus(world, domain, {.credentials = credentials});
   server::SystemClock clock;
   server::Daemon daemon(config, bus, clock);
   while (daemon.Step()) {
@@ -102,10 +102,11 @@ std::int64_t WallNs() {
       .count();
 }
 
-int Serve(const std::string& contestant, const std::string& world, std::uint32_t domain) {
+int Serve(const std::string& contestant, const std::string& world, std::uint32_t domain,
+          const std::string& credentials) {
   spdlog::set_level(spdlog::level::off);
   try {
-    if (contestant == "ours") ServeOurs(world, domain);
+    if (contestant == "ours") ServeOurs(world, domain, credentials);
     if (contestant == "network") ServeAtOnce(world, domain);
     if (contestant == kCrowd) FlyCrowd(world, domain);
   } catch (const std::exception& error) {
@@ -116,7 +117,7 @@ int Serve(const std::string& contestant, const std::string& world, std::uint32_t
 }
 
 ServiceProcess::ServiceProcess(const std::string& contestant, const std::string& world,
-                               std::uint32_t domain) {
+                               std::uint32_t domain, const std::string& credentials) {
   const std::string number = std::to_string(domain);
   const pid_t parent = getpid();
   process_ = fork();
@@ -125,7 +126,7 @@ ServiceProcess::ServiceProcess(const std::string& contestant, const std::string&
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
   execl("/proc/self/exe", "service-bench", "--serve", contestant.c_str(), "--world", world.c_str(),
-        "--domain", number.c_str(), nullptr);
+        "--domain", number.c_str(), "--credentials", credentials.c_str(), nullptr);
   _exit(1);
 }
 

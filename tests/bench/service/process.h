@@ -16,13 +16,15 @@ inline constexpr const char* kContestants[] = {"network", "ours"};
 std::int64_t WallNs();
 
 /// The child's side: serves until it is ended. Returns the exit code.
-int Serve(const std::string& contestant, const std::string& world, std::uint32_t domain);
+int Serve(const std::string& contestant, const std::string& world, std::uint32_t domain,
+          const std::string& credentials);
 
 /// This program again, as a service; ended with the object, and with this process.
 class ServiceProcess {
  public:
-  /// Throws std::runtime_error if it cannot be started.
-  ServiceProcess(const std::string& contestant, const std::string& world, std::uint32_t domain);
+  /// Throws std::runtime_error if it cannot be started. `credentials`: a folder; empty: none.
+  ServiceProcess(const std::string& contestant, const std::string& world, std::uint32_t domain,
+                 const std::string& credentials = "");
   ~ServiceProcess();
   ServiceProcess(const ServiceProcess&) = delete;
   ServiceProcess& operator=(const ServiceProcess&) = delete;

@@ -14,6 +14,10 @@ std::vector<std::string> FigureNames() {
       names.push_back(std::string(name) + agents);
     }
   }
+  for (const std::string protection : kProtections) {
+    names.push_back("secured_event_p50_ratio_" + protection);
+    names.push_back("secured_updates_ratio_" + protection);
+  }
   for (const char* agents : {"1000", "10000"}) {
     names.push_back(std::string("lattice_step_ratio_") + agents);
   }

@@ -39,7 +39,8 @@ HealthLevel LevelOf(const std::string& verdict) {
 /// The first status of a service that serves, and the next one.
 std::optional<Health> Judge(const HealthOptions& options, const std::string& place) {
   WorldView view;
-  MessageMonitor monitor(ConnectStatusReader(options.world, options.domain), view.Callbacks());
+  MessageMonitor monitor(ConnectStatusReader({options.world, options.domain, options.credentials}),
+                         view.Callbacks());
   const Deadline deadline(std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double>(options.max_age_s)));
   std::optional<v1::ServiceStatus> before;

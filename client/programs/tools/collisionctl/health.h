@@ -17,6 +17,7 @@ struct HealthOptions {
   double max_age_s = 3;                 ///< A status must come within it.
   std::size_t simulators_required = 0;  ///< Alive.
   bool json = false;
+  std::string credentials = {};  ///< Folder; empty: none.
 };
 
 /// As monitoring systems expect: the values are exit codes.

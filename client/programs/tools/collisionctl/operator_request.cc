@@ -4,7 +4,6 @@
 #include <iostream>
 #include <random>
 
-#include "client/library/network/dds_transport.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/json/json_writer.h"
 #include "idl/identity.h"
@@ -71,9 +70,9 @@ std::string ResultJson(const RequestResult& result) {
   return JsonDocument("answer").Flag("done", done).TextOrNull("answer", text).Json();
 }
 
-int RunOperatorRequest(const std::string& world, std::uint32_t domain, double timeout_s,
-                       const v1::OperatorCommand& command, bool json) {
-  const auto transport = ConnectOperator(world, domain);
+int RunOperatorRequest(const Place& place, double timeout_s, const v1::OperatorCommand& command,
+                       bool json) {
+  const auto transport = ConnectOperator(place);
   const std::chrono::duration<double> timeout(timeout_s);
   const Deadline deadline(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
   const RequestResult result = Request(transport.get(), command, deadline);
@@ -96,8 +95,8 @@ int RunOperatorRequest(const std::string& world, std::uint32_t domain, double ti
     case RequestOutcome::kNoService:
       break;
   }
-  std::cerr << "collisionctl: no service in world \"" << world << "\" on domain " << domain
-            << " within " << timeout_s << " s\n";
+  std::cerr << "collisionctl: no service in world \"" << place.world << "\" on domain "
+            << place.domain << " within " << timeout_s << " s\n";
   return kExitUnavailable;
 }
 

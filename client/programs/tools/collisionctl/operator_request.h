@@ -5,6 +5,7 @@
 #include <string>
 
 #include "client/library/deadline.h"
+#include "client/library/network/dds_transport.h"
 #include "client/library/network/transport.h"
 #include "idl/messages.pb.h"
 
@@ -40,7 +41,7 @@ std::string ResultJson(const RequestResult& result);
 /// Connects, requests, and prints the answer: to standard output, or the reason of a failure to
 /// standard error. With `json` the result of a request that was made goes to standard output, too,
 /// whatever it is. Returns the exit code. Throws std::runtime_error if DDS is not available.
-int RunOperatorRequest(const std::string& world, std::uint32_t domain, double timeout_s,
-                       const v1::OperatorCommand& command, bool json);
+int RunOperatorRequest(const Place& place, double timeout_s, const v1::OperatorCommand& command,
+                       bool json);
 
 }  // namespace collision::client

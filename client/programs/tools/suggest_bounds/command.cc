@@ -75,7 +75,8 @@ Seen ReadFile(const std::string& path) {
 /// Collects until the deadline or Ctrl-C.
 void Collect(MessageMonitor* monitor, const MotionSamples& samples,
              const SuggestBoundsOptions& options, const LiveWorld& live) {
-  AgentsWatcher watcher(ConnectWatcher(live.world, live.domain), AsNanoseconds(options.period_s));
+  AgentsWatcher watcher(ConnectWatcher({live.world, live.domain, live.credentials}),
+                        AsNanoseconds(options.period_s));
   const Deadline deadline(AsNanoseconds(options.seconds));
   while (deadline.Remaining().count() > 0 && !samples.full() && !StopRequested()) {
     watcher.Repeat(std::chrono::steady_clock::now());
@@ -94,6 +95,7 @@ Seen Watch(const SuggestBoundsOptions& options, const LiveWorld& live) {
   MonitorOptions monitored;
   monitored.world = live.world;
   monitored.domain = live.domain;
+  monitored.credentials = live.credentials;
   monitored.simulators = true;
   MessageMonitor monitor(monitored, callbacks);
   const Deadline deadline(AsNanoseconds(live.timeout_s));

@@ -26,6 +26,7 @@ struct LiveWorld {
   std::string world;
   std::uint32_t domain = 0;
   double timeout_s = 3;
+  std::string credentials = {};  ///< Folder; empty: none.
 };
 
 /// Returns the exit code; errors are printed on standard error.

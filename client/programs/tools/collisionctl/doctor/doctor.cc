@@ -53,7 +53,7 @@ DdsNeighbours LookUntil(const DdsLookout& lookout, Enough enough) {
 }
 
 /// Where else somebody serves, in all other domains.
-std::vector<ServedDomain> LookElsewhere(std::uint32_t besides) {
+std::vector<ServedDomain> LookElsewhere(std::uint32_t besides, const std::string& credentials) {
   std::vector<ServedDomain> served;
   dds::SetNetworkLog([](const std::string&) {});  // of domains that nobody asked for
   for (std::uint32_t first = 0; first <= wire::kDomainMax; first += kDomainsAtOnce) {
@@ -62,7 +62,7 @@ std::vector<ServedDomain> LookElsewhere(std::uint32_t besides) {
     for (std::uint32_t domain = first; domain < end; ++domain) {
       if (domain == besides) continue;
       try {
-        lookouts.emplace_back(domain, DdsLookout(domain));
+        lookouts.emplace_back(domain, DdsLookout(domain, credentials));
       } catch (const std::runtime_error&) {
         continue;  // a port of the domain is in use by another kind of program
       }
@@ -95,15 +95,18 @@ std::string ProfileWith(const std::string& host, std::uint32_t domain) {
 /// The profile is read when a process has its first participant in a domain: there is none now.
 bool AnswersByUnicast(const DoctorOptions& options) {
   setenv("CYCLONEDDS_URI", ProfileWith(options.host, options.domain).c_str(), 1);
-  const DdsLookout lookout(options.domain);
+  const DdsLookout lookout(options.domain, options.credentials);
   const auto serves = [&](const DdsNeighbours& seen) { return Serves(seen, options.world); };
   return serves(LookUntil(lookout, serves));
 }
 
 /// What the world tells until it is known, or the time is over.
 void Listen(const DoctorOptions& options, WorldView* view, DoctorSeen* seen) {
-  const DdsLookout lookout(options.domain);
-  MessageMonitor monitor({.world = options.world, .domain = options.domain, .simulators = true},
+  const DdsLookout lookout(options.domain, options.credentials);
+  MessageMonitor monitor({.world = options.world,
+                          .domain = options.domain,
+                          .simulators = true,
+                          .credentials = options.credentials},
                          view->Callbacks());
   const Deadline deadline(Seconds(options.timeout_s)), discovery{kDiscovery};
   while (deadline.Remaining().count() > 0) {
@@ -124,13 +127,15 @@ DoctorSeen Look(const DoctorOptions& options, WorldView* view) {
                   .domain = options.domain,
                   .waited_s = options.timeout_s,
                   .interfaces = InterfacesThatAreUp(),
-                  .host = options.host};
+                  .host = options.host,
+                  .has_credentials = !options.credentials.empty()};
   seen.own_address = OwnDdsAddress(options.domain);
   Listen(options, view, &seen);
   if (!Serves(seen.neighbours, options.world)) {
     if (!options.host.empty()) seen.host_answers = AnswersByUnicast(options);
     const bool others = !WorldsServed(seen.neighbours).empty();
-    if (!seen.host_answers && !others) seen.elsewhere = LookElsewhere(options.domain);
+    if (!seen.host_answers && !others)
+      seen.elsewhere = LookElsewhere(options.domain, options.credentials);
   }
   return seen;
 }
@@ -164,7 +169,7 @@ int RunDoctor(const DoctorOptions& options) {
     std::cout << DoctorPage(seen, view, findings) << std::flush;
   }
   if (!std::cout) return kExitOutputFailed;
-  return findings.empty() ? kExitOk : kExitRefused;
+  return IsWell(findings) ? kExitOk : kExitRefused;
 }
 
 }  // namespace collision::client

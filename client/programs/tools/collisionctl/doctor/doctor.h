@@ -12,6 +12,7 @@ struct DoctorOptions {
   std::uint32_t domain = 0;
   double timeout_s = 3;
   bool json = false;
+  std::string credentials = {};  ///< A folder; empty: none.
   std::string host = {};  ///< IPv4 address of a host that is asked by unicast, too; empty: none.
 };
 

@@ -73,12 +73,14 @@ class Doctor {
     ExamineInterfaces();
     ExaminePeers();
     if (view_.status()) ExamineWorld(*view_.status());
+    NoteOpenNetwork();
     return std::move(findings_);
   }
 
  private:
   void Add(std::string matter, std::string what, std::string advice) {
-    findings_.push_back({std::move(matter), std::move(what), std::move(advice)});
+    findings_.push_back(
+        {.matter = std::move(matter), .what = std::move(what), .advice = std::move(advice)});
   }
 
   std::string Place() const {
@@ -138,6 +140,19 @@ class Doctor {
             std::to_string(7400 + 250 * seen_.domain) +
             " and above; with DDS Security: its log "
             "says why it refuses this program");
+  }
+
+  /// Whoever reaches the network can take part.
+  void NoteOpenNetwork() {
+    constexpr std::uint32_t kLoopback = 127;
+    const std::uint32_t address = AddressOf(seen_.own_address);
+    if (seen_.has_credentials || !view_.status() || address == 0 || address >> 24 == kLoopback)
+      return;
+    findings_.push_back({.matter = "open",
+                         .what = "the world is on the network of " + seen_.own_address +
+                                 " without credentials: whoever reaches that network can take part",
+                         .advice = "collisionctl make-certificates --help, and docker/SECURITY.md",
+                         .is_note = true});
   }
 
   /// The addresses of the services if none is in a network of this machine; else empty.
@@ -299,19 +314,24 @@ std::vector<Finding> Findings(const DoctorSeen& seen, const WorldView& view) {
 
 std::string DoctorPage(const DoctorSeen& seen, const WorldView& view,
                        const std::vector<Finding>& findings) {
-  if (findings.empty()) {
+  std::string page;
+  if (IsWell(findings)) {
     const v1::ServiceStatus& status = *view.status();
-    return "WELL: the service is heard, " + std::to_string(status.simulators_size()) +
+    page = "WELL: the service is heard, " + std::to_string(status.simulators_size()) +
            " simulators and " + std::to_string(status.agents()) + " agents; " +
            std::to_string(seen.neighbours.programs.size()) +
            " programs on the network, all readers and writers fit\n";
   }
-  std::string page;
   std::size_t number = 0;
   for (const Finding& finding : findings) {
-    page += std::to_string(++number) + ". " + finding.what + "\n   -> " + finding.advice + "\n";
+    page += (finding.is_note ? "note: " : std::to_string(++number) + ". ") + finding.what +
+            "\n   -> " + finding.advice + "\n";
   }
   return page;
+}
+
+bool IsWell(const std::vector<Finding>& findings) {
+  return std::ranges::all_of(findings, &Finding::is_note);
 }
 
 std::string DoctorJson(const std::vector<Finding>& findings) {

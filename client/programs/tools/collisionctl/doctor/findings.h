@@ -25,17 +25,19 @@ struct DoctorSeen {
   std::vector<Interface> interfaces = {};
   std::string own_address = {};  ///< At which this program speaks; empty: not known.
   std::vector<ServedDomain> elsewhere =
-      {};                       ///< Looked for only where nobody serves the world here.
-  std::string host = {};        ///< Asked by unicast, too; empty: none was.
-  bool host_answers = false;    ///< By unicast, though it is not heard by multicast.
-  std::string unreadable = {};  ///< MessageMonitor::unreadable().
+      {};                        ///< Looked for only where nobody serves the world here.
+  std::string host = {};         ///< Asked by unicast, too; empty: none was.
+  bool has_credentials = false;  ///< Of this program.
+  bool host_answers = false;     ///< By unicast, though it is not heard by multicast.
+  std::string unreadable = {};   ///< MessageMonitor::unreadable().
 };
 
 /// One trouble.
 struct Finding {
-  std::string matter;  ///< A short constant word, for programs: "no-service".
-  std::string what;    ///< One sentence.
-  std::string advice;  ///< What to type, or to change.
+  std::string matter;    ///< A short constant word, for programs: "no-service".
+  std::string what;      ///< One sentence.
+  std::string advice;    ///< What to type, or to change.
+  bool is_note = false;  ///< Nothing fails; an operator should know.
 };
 
 /// The worlds that have a service among these, sorted.
@@ -44,7 +46,10 @@ std::vector<std::string> WorldsServed(const DdsNeighbours& neighbours);
 /// In the order in which they are to be mended. `view`: what has been received of the world.
 std::vector<Finding> Findings(const DoctorSeen& seen, const WorldView& view);
 
-/// The page; without findings it says what is well.
+/// Whether there are notes at most.
+bool IsWell(const std::vector<Finding>& findings);
+
+/// The page; if all is well it says so.
 std::string DoctorPage(const DoctorSeen& seen, const WorldView& view,
                        const std::vector<Finding>& findings);
 

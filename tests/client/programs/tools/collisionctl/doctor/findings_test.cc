@@ -25,6 +25,7 @@ class FindingsTest : public CollisionctlTest {
     seen_.neighbours.programs[1] = {
         .process = "collisionctl", .pid = "7", .host = "here", .is_own = true};
     seen_.own_address = "10.0.0.7";
+    seen_.has_credentials = true;
   }
 
   void AddService(std::uint64_t program, const std::string& addresses,
@@ -133,8 +134,19 @@ TEST_F(FindingsTest, PeersOfOtherWorldsAreNobodysTrouble) {
   }
 }
 
+TEST_F(FindingsTest, AnOpenNetworkIsNoted) {
+  AddService(2, "10.0.0.9");
+  Status();
+  seen_.has_credentials = false;
+  EXPECT_EQ(Matters(), Words{"open"});
+  EXPECT_TRUE(Page().starts_with("WELL: ")) << "it is a note";
+  EXPECT_NE(Page().find("\nnote: the world is on the network of 10.0.0.7"), std::string::npos);
+  seen_.own_address = "127.0.0.1";
+  EXPECT_EQ(Matters(), Words{});
+}
+
 TEST_F(FindingsTest, HasADocument) {
-  EXPECT_EQ(DoctorJson({{"no-service", "none \"here\"", "start one"}}),
+  EXPECT_EQ(DoctorJson({{.matter = "no-service", .what = "none \"here\"", .advice = "start one"}}),
             R"({"schema":"collision/1","kind":"doctor","findings":[{"matter":"no-service",)"
             R"("what":"none \"here\"","advice":"start one"}]})");
 }

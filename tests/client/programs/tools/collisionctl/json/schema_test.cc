@@ -150,7 +150,10 @@ TEST_F(SchemaTest, TakesTheAnswersToOperators) {
 }
 
 TEST_F(SchemaTest, TakesWhatTheDoctorFinds) {
-  EXPECT_EQ(ComplaintsAbout({DoctorJson({}), DoctorJson({{"nobody", "none", "start one"}})}), "");
+  EXPECT_EQ(
+      ComplaintsAbout({DoctorJson({}),
+                       DoctorJson({{.matter = "nobody", .what = "none", .advice = "start one"}})}),
+      "");
 }
 
 // Did the schema take anything, the tests above would say nothing.
