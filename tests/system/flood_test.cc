@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(EverNew, Flood, testing::Values("keys", "disposals"),
 //         serves the honest simulator as before.
 // Method: 20,000 messages of every topic with spoilt fields, for several names.
 TEST(Hostile, MessagesCostTheHonestNothing) {
-  const TestWorld world(111, "kind: REAL_TIME skew_max_s: 0.2");
+  const TestWorld world(130, "kind: REAL_TIME skew_max_s: 0.2");
   const auto daemon = world.StartDaemon();
   const auto honest = world.StartHelper("troubles", {"real-time"});
   ASSERT_TRUE(honest->WaitForOutput("here")) << honest->err();

@@ -63,6 +63,18 @@ TEST(Security, WithoutCredentialsAProgramHearsNobodyAndIsHeardByNobody) {
   secured.ExpectHonestFlight();
 }
 
+// Goal:   who asks without credentials hears that the world is secured, and with them that all is
+//         well.
+TEST(Security, TheDoctorNamesASecuredWorld) {
+  SecuredWorld secured(113);
+  const Outcome without = secured.world().Monitor({"--timeout", "3", "doctor"});
+  EXPECT_EQ(without.status, 1);
+  EXPECT_TRUE(Contains(without.out, "a secured world keeps it out")) << without.out;
+  const Outcome with = secured.Monitor({"doctor"});
+  EXPECT_EQ(with.status, 0) << with.out;
+  EXPECT_TRUE(Contains(with.out, "WELL: the service is heard")) << with.out;
+}
+
 /// Which of two programs of different authorities finds out depends on their GUIDs. The other one's
 /// handshake ends without an answer, which it says 100 s later.
 bool ComesToSay(const std::vector<Process*>& either, const std::string& text) {

@@ -52,25 +52,24 @@ DdsNeighbours LookUntil(const DdsLookout& lookout, Enough enough) {
   return seen;
 }
 
-/// Where else somebody serves, in all other domains.
-std::vector<ServedDomain> LookElsewhere(std::uint32_t besides, const std::string& credentials) {
-  std::vector<ServedDomain> served;
+/// The other domains in which the world is served.
+std::vector<std::uint32_t> LookElsewhere(const DoctorOptions& options) {
+  std::vector<std::uint32_t> served;
   dds::SetNetworkLog([](const std::string&) {});  // of domains that nobody asked for
   for (std::uint32_t first = 0; first <= wire::kDomainMax; first += kDomainsAtOnce) {
     std::vector<std::pair<std::uint32_t, DdsLookout>> lookouts;
     const std::uint32_t end = std::min(first + kDomainsAtOnce, wire::kDomainMax + 1);
     for (std::uint32_t domain = first; domain < end; ++domain) {
-      if (domain == besides) continue;
+      if (domain == options.domain) continue;
       try {
-        lookouts.emplace_back(domain, DdsLookout(domain, credentials));
+        lookouts.emplace_back(domain, DdsLookout(domain, options.credentials));
       } catch (const std::runtime_error&) {
         continue;  // a port of the domain is in use by another kind of program
       }
     }
     std::this_thread::sleep_for(kDiscovery);
     for (const auto& [domain, lookout] : lookouts) {
-      std::vector<std::string> worlds = WorldsServed(lookout.Look());
-      if (!worlds.empty()) served.push_back({domain, std::move(worlds)});
+      if (Serves(lookout.Look(), options.world)) served.push_back(domain);
     }
   }
   dds::SetNetworkLog(nullptr);
@@ -134,8 +133,7 @@ DoctorSeen Look(const DoctorOptions& options, WorldView* view) {
   if (!Serves(seen.neighbours, options.world)) {
     if (!options.host.empty()) seen.host_answers = AnswersByUnicast(options);
     const bool others = !WorldsServed(seen.neighbours).empty();
-    if (!seen.host_answers && !others)
-      seen.elsewhere = LookElsewhere(options.domain, options.credentials);
+    if (!seen.host_answers && !others) seen.elsewhere = LookElsewhere(options);
   }
   return seen;
 }

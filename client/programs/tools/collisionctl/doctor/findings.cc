@@ -104,21 +104,45 @@ class Doctor {
                  "collisionctl --world " + worlds.front() + " doctor, or " + start);
     }
     if (!seen_.elsewhere.empty()) {
-      const ServedDomain& first = seen_.elsewhere.front();
+      const std::string domain = std::to_string(seen_.elsewhere.front());
       return Add(
-          "other-domain",
-          none + "; domain " + std::to_string(first.domain) + " serves " + Joined(first.worlds),
-          "collisionctl --domain " + std::to_string(first.domain) + " --world " +
-              first.worlds.front() + " doctor, or " + start);
+          "other-domain", none + "; domain " + domain + " serves a world of this name",
+          "collisionctl --domain " + domain + " --world " + seen_.world + " doctor, or " + start);
     }
     const bool is_alone = std::ranges::all_of(
         seen_.neighbours.programs, [](const auto& entry) { return entry.second.is_own; });
+    if (const std::string hidden = Hidden(); !hidden.empty()) {
+      return Add("secured",
+                 none + "; these programs show nothing of themselves to this one: " + hidden +
+                     ": a secured world keeps it out",
+                 "collisionctl --credentials FOLDER doctor (docker/SECURITY.md)");
+    }
     if (!is_alone) return Add("no-service", none, start);
+    if (seen_.has_credentials) {
+      return Add("nobody",
+                 none +
+                     ", nor any other program: nothing runs, or these credentials are of "
+                     "another authority than theirs",
+                 start + "; its log tells of those that it refuses");
+    }
     Add("nobody",
         none +
             ", nor any other program: nothing runs, or it is on another interface, or "
             "multicast does not come through",
         start + "; if one runs on another host: collisionctl doctor --host ITS-ADDRESS");
+  }
+
+  /// Programs that show no reader or writer, and are services or do not say what they are, as those
+  /// of a secured world do not.
+  std::string Hidden() const {
+    std::vector<std::string> names;
+    for (const auto& [key, program] : seen_.neighbours.programs) {
+      const bool is_shown = std::ranges::any_of(
+          seen_.neighbours.peers, [key = key](const auto& peer) { return peer.program == key; });
+      const bool may_serve = program.process.empty() || program.process.starts_with("collisiond");
+      if (may_serve && !program.is_own && !is_shown) names.push_back(NameOf(seen_.neighbours, key));
+    }
+    return Joined(names);
   }
 
   /// It has been found, and what it writes does not arrive.

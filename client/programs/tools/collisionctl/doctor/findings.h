@@ -11,12 +11,6 @@
 
 namespace collision::client {
 
-/// A domain in which somebody serves, other than the one that was asked for.
-struct ServedDomain {
-  std::uint32_t domain = 0;
-  std::vector<std::string> worlds;
-};
-
 struct DoctorSeen {
   std::string world;
   std::uint32_t domain = 0;
@@ -24,8 +18,8 @@ struct DoctorSeen {
   DdsNeighbours neighbours = {};
   std::vector<Interface> interfaces = {};
   std::string own_address = {};  ///< At which this program speaks; empty: not known.
-  std::vector<ServedDomain> elsewhere =
-      {};                        ///< Looked for only where nobody serves the world here.
+  /// Other domains in which the world is served; looked for only where nobody serves it here.
+  std::vector<std::uint32_t> elsewhere = {};
   std::string host = {};         ///< Asked by unicast, too; empty: none was.
   bool has_credentials = false;  ///< Of this program.
   bool host_answers = false;     ///< By unicast, though it is not heard by multicast.

@@ -62,13 +62,20 @@ TEST_F(FindingsTest, WhereNobodyServesTheNearestOtherIsNamed) {
   EXPECT_EQ(Matters(), Words{"nobody"});
   seen_.neighbours.programs[3] = {.process = "drone-swarm", .pid = "8", .host = "there"};
   EXPECT_EQ(Matters(), Words{"no-service"});
-  seen_.elsewhere = {{.domain = 7, .worlds = {"lab"}}};
+  seen_.elsewhere = {7};
   EXPECT_EQ(Matters(), Words{"other-domain"});
   AddService(2, "10.0.0.9", "lab2");
   EXPECT_EQ(Matters(), Words{"other-world"});
   seen_.host = "10.0.0.9";
   seen_.host_answers = true;
   EXPECT_EQ(Matters(), Words{"multicast"});
+}
+
+TEST_F(FindingsTest, AServiceThatShowsNothingIsASecuredOne) {
+  seen_.has_credentials = false;
+  seen_.neighbours.programs[2] = {.process = "collisiond", .pid = "9", .host = "there"};
+  EXPECT_EQ(Matters(), Words{"secured"});
+  EXPECT_NE(Page().find("to this one: collisiond (pid 9 on there)"), std::string::npos) << Page();
 }
 
 TEST_F(FindingsTest, AServiceThatIsFoundAndNotHeard) {
