@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "idl/messages.pb.h"
 
@@ -17,6 +18,9 @@ class ContactSink {
 
   /// The step is over.
   virtual void Write(std::int64_t wall_ns) = 0;
+
+  /// One line with path and cause, while nothing is kept for that reason; else empty.
+  virtual const std::string& failure() const = 0;
 };
 
 }  // namespace collision::server

@@ -24,8 +24,7 @@ class ContactJournal final : public ContactSink {
   void Add(const v1::CollisionEvent& contact) override;
   void Write(std::int64_t wall_ns) override;
 
-  /// One line with path and cause, while nothing is kept for that reason; else empty.
-  const std::string& failure() const { return failure_; }
+  const std::string& failure() const override { return failure_; }
 
  private:
   void GoOn(const wire::KeptFile& file);

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "server/process/logging.h"
 #include "server/process/write_all.h"
 
 namespace collision::server {
@@ -119,7 +120,9 @@ void RollingFiles::DropOld(std::int64_t wall_ns) {
 bool RollingFiles::DropOldest() {
   for (const wire::KeptFile& file : wire::KeptFilesIn(place_.folder, place_.suffix)) {
     if (file.place() != place_.world_and_domain || wire::IsInUse(file.path)) continue;
-    if (unlink(file.path.c_str()) == 0) return true;
+    if (unlink(file.path.c_str()) != 0) continue;
+    Log(spdlog::level::warn, "disk full", "removed " + file.path + ", the oldest, to go on");
+    return true;
   }
   return false;
 }

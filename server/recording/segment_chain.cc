@@ -46,6 +46,7 @@ SegmentChain::SegmentChain(const std::string& path, const ReplayRange& range) : 
     for (const wire::KeptFile& file : files) {
       if (range.from_ns && file.begin_ns <= *range.from_ns) at_ = files_.size();
       files_.push_back(file.path);
+      begins_ns_.push_back(file.begin_ns);
     }
   }
   reader_ = std::make_unique<RecordingReader>(files_[at_]);
@@ -67,13 +68,33 @@ std::optional<v1::RecordedBatch> SegmentChain::Next() {
 /// Opens the next segment if it goes on where this one ends.
 bool SegmentChain::GoOn() {
   if (!reader_->continues() || at_ + 1 == files_.size()) return false;
-  auto next = std::make_unique<RecordingReader>(files_[at_ + 1]);
+  std::unique_ptr<RecordingReader> next;
+  try {
+    next = std::make_unique<RecordingReader>(files_[at_ + 1]);
+  } catch (const std::runtime_error&) {
+    return false;  // NextRun() says why
+  }
   if (next->claim().instance != reader_->claim().instance) return false;
   if (next->segment() != reader_->segment() + 1) return false;
   ++at_;
   reader_ = std::move(next);
   skips_opening_ = true;
   return true;
+}
+
+bool SegmentChain::NextRun(const std::function<void(const std::string& cause)>& skipped) {
+  while (at_ + 1 < begins_ns_.size()) {
+    if (range_.until_ns && begins_ns_[at_ + 1] > *range_.until_ns) return false;
+    ++at_;
+    try {
+      reader_ = std::make_unique<RecordingReader>(files_[at_]);
+      skips_opening_ = false;
+      return true;
+    } catch (const std::runtime_error& error) {
+      skipped(error.what());
+    }
+  }
+  return false;
 }
 
 }  // namespace collision::server

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,13 +37,21 @@ class SegmentChain final : public BatchSource {
 
   std::optional<v1::RecordedBatch> Next() override;
 
+  /// Why the last batch of a file was not its end; empty: it was.
   const std::string& error() const { return reader_->error(); }
+
+  /// After the last batch: begins anew with the next segment of the folder, which does not go on
+  /// where this one ends: the service was started again, or a segment is missing or damaged. Those
+  /// that cannot be opened are passed over, and told to `skipped`. False: there is none before
+  /// `until_ns`.
+  bool NextRun(const std::function<void(const std::string& cause)>& skipped);
 
  private:
   bool GoOn();
 
   const ReplayRange range_;
   std::vector<std::string> files_;
+  std::vector<std::int64_t> begins_ns_;  ///< Of each; empty: it is one file.
   std::size_t at_ = 0;
   std::unique_ptr<RecordingReader> reader_;
   bool skips_opening_ = false;

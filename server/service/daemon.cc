@@ -389,6 +389,7 @@ class Daemon::Implementation {
             world_.ended_runs().TakeTurn(wire::kExtensionValueMax), &extensions);
     AddText("recording_failure", recorder_.failure(), &extensions);
     AddText("flight_failure", recorder_.flight_failure(), &extensions);
+    AddText("contacts_failure", contact_report_.failure(), &extensions);
     if (quarantine_ != nullptr) AddText("quarantine", quarantine_->Summary(), &extensions);
     return extensions;
   }

@@ -170,7 +170,8 @@ int Run(const std::string& command, const ViewOptions& options) {
     return kExitUnavailable;
   }
   // The earliest intersection is computed for its readers: the last sample may be of long ago.
-  const bool awaits_earliest = command == "earliest" && view.status()->phase() == v1::PHASE_SERVING;
+  const bool awaits_earliest =
+      (command == "earliest" || command == "status") && view.status()->phase() == v1::PHASE_SERVING;
   const std::int64_t since_ns = view.status()->now_ns();
   Gather(&monitor, deadline, [&] {
     if (awaits_earliest && !(view.earliest() && view.earliest()->now_ns() >= since_ns))
@@ -240,6 +241,11 @@ DoctorOptions With(const ViewOptions& options, DoctorOptions doctor) {
 int PrintJournal(const ViewOptions& options) {
   if (options.follow) {
     std::cerr << "collisionctl: --follow shows what comes, the journal what was: give one\n";
+    return kExitUsage;
+  }
+  if (options.top || options.within_s) {
+    std::cerr << "collisionctl: --top and --within are of what lies ahead, the journal is of what "
+                 "was\n";
     return kExitUsage;
   }
   const MonitorOptions& place = options.monitor;

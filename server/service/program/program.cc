@@ -319,12 +319,22 @@ int Replay(SegmentChain& chain, const ReplayRange& range) {
   while (daemon.Step()) {
   }
   std::cout.flush();
-  if (range.from_ns) spdlog::info("{}: here the replay ends", chain.path());
+  spdlog::info("{}: here the replay of this start of the service ends", chain.path());
   LogFingerprint(daemon);
   if (!chain.error().empty()) return Fail(kExitFile, chain.error());
   return std::cout ? kExitOk : Fail(kExitFile, "standard output cannot be written");
 }
 
+/// The settings of a recording may be damaged, too.
+std::optional<int> RefusalOfConfig(const SegmentChain& chain) {
+  for (const ConfigError& error : CheckConfig(chain.config())) {
+    return Fail(kExitFile,
+                chain.path() + ": byte 0: its configuration: " + error.field + ": " + error.what);
+  }
+  return std::nullopt;
+}
+
+/// Each start of the service, one after the other; the code of the first failure.
 int Replay(const Options& options) {
   StartLogging({.level = options.log_level.value_or("info")});  // not where the recorded run logged
   const ReplayRange range{.from_ns = options.from_ns, .until_ns = options.until_ns};
@@ -334,11 +344,14 @@ int Replay(const Options& options) {
   } catch (const std::runtime_error& error) {
     return Fail(kExitFile, error.what());
   }
-  for (const ConfigError& error : CheckConfig(chain->config())) {
-    return Fail(kExitFile,
-                chain->path() + ": byte 0: its configuration: " + error.field + ": " + error.what);
-  }
-  return Replay(*chain, range);
+  int code = kExitOk;
+  const auto note = [&code](int result) { code = code == kExitOk ? result : code; };
+  do {
+    const std::optional<int> refused = RefusalOfConfig(*chain);
+    note(refused ? *refused : Replay(*chain, range));
+  } while (std::cout &&
+           chain->NextRun([&note](const std::string& cause) { note(Fail(kExitFile, cause)); }));
+  return code;
 }
 
 int Calibrate() {

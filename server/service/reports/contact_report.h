@@ -38,6 +38,8 @@ class ContactReport final : public ContactObserver {
 
   void TakeContact(const v1::CollisionEvent& contact) override;
   void ContactsHaveLeft() override { measurements_.ContactsHaveLeft(); }
+  /// ContactSink::failure().
+  std::string failure() const { return kept_ == nullptr ? "" : kept_->failure(); }
   void EndStep(std::int64_t wall_ns) {
     if (kept_ != nullptr) kept_->Write(wall_ns);
   }

@@ -107,7 +107,9 @@ void Listen(const DoctorOptions& options, WorldView* view, DoctorSeen* seen) {
                           .simulators = true,
                           .credentials = options.credentials},
                          view->Callbacks());
-  const Deadline deadline(Seconds(options.timeout_s)), discovery{kDiscovery};
+  const Deadline deadline(
+      std::max<std::chrono::nanoseconds>(Seconds(options.timeout_s), kDiscovery));
+  const Deadline discovery{kDiscovery};
   while (deadline.Remaining().count() > 0) {
     monitor.Poll(std::min<std::chrono::nanoseconds>(kPause, deadline.Remaining()));
     if (discovery.Remaining().count() > 0) continue;

@@ -44,7 +44,10 @@ void Read(const std::string& path, SegmentFacts* facts) {
   simulators.erase(0);
   facts->simulators = simulators.size();
   // What a service writes at this moment ends anywhere.
-  if (!facts->is_written) facts->damage = reader.error();
+  if (facts->is_written) return;
+  facts->damage = reader.error();
+  if (facts->damage.empty() && facts->number == 0 && facts->batches == 0)
+    facts->damage = "byte 0: it holds nothing";
 }
 
 std::size_t ContactsIn(const std::string& folder, const SegmentFacts& facts) {
@@ -90,12 +93,12 @@ std::vector<SegmentFacts> SegmentsIn(const std::string& folder) {
 
 std::string RecordingsPage(const std::vector<SegmentFacts>& segments) {
   char line[400];
-  std::snprintf(line, sizeof line, "%-16s %-20s %-20s %8s %8s %10s %8s  %s\n", "world",
+  std::snprintf(line, sizeof line, "%-16s %-24s %-24s %8s %8s %10s %8s  %s\n", "world",
                 "from (UTC)", "to", "MB", "batches", "simulators", "contacts", "file");
   std::string page = line;
   for (const SegmentFacts& one : segments) {
     const std::string from = wire::UtcText(one.file.begin_ns), to = wire::UtcText(one.end_ns);
-    std::snprintf(line, sizeof line, "%-16s %-19.19sZ %-19.19sZ %8.1f %8llu %10zu %8zu  %s",
+    std::snprintf(line, sizeof line, "%-16s %-23.23sZ %-23.23sZ %8.1f %8llu %10zu %8zu  %s",
                   one.file.place().c_str(), from.c_str(), to.c_str(),
                   1e-6 * static_cast<double>(one.file.bytes),
                   static_cast<unsigned long long>(one.batches), one.simulators, one.contacts,
