@@ -17,6 +17,7 @@ namespace collision::server {
 
 /// Nobody changes it any more.
 using SharedBatch = std::shared_ptr<const v1::RecordedBatch>;
+using BatchInputs = google::protobuf::RepeatedPtrField<v1::Input>;
 
 /// The batch of a step: its times, who reads the earliest intersection, the greatest time granted
 /// before (Always(): none), and its inputs, which it takes.

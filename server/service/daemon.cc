@@ -35,8 +35,6 @@
 namespace collision::server {
 
 class Daemon::Implementation {
-  using Inputs = google::protobuf::RepeatedPtrField<v1::Input>;
-
  public:
   Implementation(const v1::Config& config, Bus& bus, Clock& clock, DaemonParts parts)
       : config_(config),
@@ -114,7 +112,7 @@ class Daemon::Implementation {
   bool Apply(std::int64_t before_ns, std::vector<v1::Input> received) {
     const SharedBatch batch = Begin(clock_.Read(), std::move(received));
     if (!Record(batch)) return false;
-    const Inputs& inputs = batch->inputs();
+    const BatchInputs& inputs = batch->inputs();
     // Otherwise there is a step for each status at least.
     const std::int64_t gap_ns = world_.monotonic_ns() - before_ns;
     if (gap_ns > ToNanoseconds(config_.status_period_s()) + kStoodStill) {
@@ -207,7 +205,7 @@ class Daemon::Implementation {
   }
 
   /// Takes what other services say; `before`: this step. False: one of them has the world.
-  bool Claim(const Inputs& inputs, ClaimPhase before) {
+  bool Claim(const BatchInputs& inputs, ClaimPhase before) {
     const std::int64_t now_ns = world_.monotonic_ns();
     for (const v1::Input& input : inputs) {
       if (input.has_simulator_clock()) {

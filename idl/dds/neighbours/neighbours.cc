@@ -113,7 +113,11 @@ bool IsSameType(dds_entity_t topic, dds_builtintopic_endpoint_t* endpoint) {
   return is_same;
 }
 
-std::string Misfit(dds_entity_t participant, dds_builtintopic_endpoint_t endpoint, bool writes) {
+/// Whether credentials let anyone who looks on have this topic; DDS reports each refusal.
+bool IsForMonitors(const dds::TopicRow& row) { return row.source != dds::Source::kOperators; }
+
+std::string Misfit(dds_entity_t participant, bool is_secured, dds_builtintopic_endpoint_t endpoint,
+                   bool writes) {
   const std::string_view name = endpoint.topic_name;
   const auto row = std::ranges::find(dds::Topics(), name, &dds::TopicRow::name);
   if (row == dds::Topics().end()) return "topic of another version of the wire";
@@ -121,7 +125,10 @@ std::string Misfit(dds_entity_t participant, dds_builtintopic_endpoint_t endpoin
     return "its type is \"" + std::string(endpoint.type_name) + "\", not \"" +
            row->type->m_typename + "\"";
   if (!IsKeyed(endpoint.key)) return "its type has no key";
-  const dds_entity_t topic = dds_create_topic(participant, row->type, row->name, nullptr, nullptr);
+  const dds_entity_t topic =
+      is_secured && !IsForMonitors(*row)
+          ? 0
+          : dds_create_topic(participant, row->type, row->name, nullptr, nullptr);
   const dds::Entity owner(topic);
   if (topic > 0 && !IsSameType(topic, &endpoint)) {
     return "its type has other members: it was built from another collision.idl";
@@ -157,7 +164,9 @@ std::string OwnDdsAddress(std::uint32_t domain) {
   return address;
 }
 
-DdsLookout::DdsLookout(std::uint32_t domain, const std::string& credentials) {
+DdsLookout::DdsLookout(std::uint32_t domain, const std::string& credentials,
+                       const std::string& world)
+    : is_secured_(!credentials.empty()) {
   const dds::Qos qos = dds::MakeQos();
   if (!credentials.empty()) dds::Credentials(credentials).Apply(qos.get());
   participant_ = dds::Check(dds_create_participant(domain, qos.get(), nullptr),
@@ -168,10 +177,23 @@ DdsLookout::DdsLookout(std::uint32_t domain, const std::string& credentials) {
   programs_ = read(DDS_BUILTIN_TOPIC_DCPSPARTICIPANT);
   writers_ = read(DDS_BUILTIN_TOPIC_DCPSPUBLICATION);
   readers_ = read(DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION);
+  if (is_secured_) ShowReader(world);
+}
+
+void DdsLookout::ShowReader(const std::string& world) const {
+  const auto row =
+      std::ranges::find(dds::Topics(), dds::TopicId::kServiceStatus, &dds::TopicRow::id);
+  const dds_entity_t topic = dds_create_topic(participant_, row->type, row->name, nullptr, nullptr);
+  const dds::Qos qos = dds::MakeQos();
+  const char* partition = world.c_str();
+  dds_qset_partition(qos.get(), 1, &partition);
+  const dds_entity_t subscriber = dds_create_subscriber(participant_, qos.get(), nullptr);
+  dds_create_reader(subscriber, topic, nullptr, nullptr);
 }
 
 DdsLookout::DdsLookout(DdsLookout&& other) noexcept
-    : participant_(std::exchange(other.participant_, 0)),
+    : is_secured_(other.is_secured_),
+      participant_(std::exchange(other.participant_, 0)),
       programs_(other.programs_),
       writers_(other.writers_),
       readers_(other.readers_) {}
@@ -202,7 +224,7 @@ DdsNeighbours DdsLookout::Look() const {
                                 .writes = writes,
                                 .topic = one.topic_name,
                                 .partitions = PartitionsOf(one.qos),
-                                .misfit = Misfit(participant_, one, writes)});
+                                .misfit = Misfit(participant_, is_secured_, one, writes)});
         });
   }
   return seen;

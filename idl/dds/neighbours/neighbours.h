@@ -40,9 +40,10 @@ std::string OwnDdsAddress(std::uint32_t domain);
 /// A participant that looks on. One thread.
 class DdsLookout {
  public:
-  /// `credentials`: a folder of them; empty: none. Throws std::runtime_error, with the cause, if
-  /// DDS is not available in this domain.
-  explicit DdsLookout(std::uint32_t domain, const std::string& credentials = {});
+  /// `credentials`: a folder of them, for a reader in `world`; empty: none. Throws
+  /// std::runtime_error, with the cause, if DDS is not available in this domain.
+  explicit DdsLookout(std::uint32_t domain, const std::string& credentials = {},
+                      const std::string& world = {});
   DdsLookout(DdsLookout&& other) noexcept;
   DdsLookout& operator=(DdsLookout&&) = delete;
   ~DdsLookout();
@@ -51,6 +52,10 @@ class DdsLookout {
   DdsNeighbours Look() const;
 
  private:
+  /// The services of a secured world take a program without readers and writers for a stranger.
+  void ShowReader(const std::string& world) const;
+
+  bool is_secured_ = false;
   int participant_ = 0;
   int programs_ = 0, writers_ = 0, readers_ = 0;
 };

@@ -44,14 +44,6 @@ std::vector<std::string> TopicsOf(Source source) {
   return TopicsOf([source](const TopicRow& row) { return row.source == source; });
 }
 
-/// The status of other services, and what a standby follows.
-std::vector<std::string> TopicsOfOtherServices() {
-  return TopicsOf([](const TopicRow& row) {
-    return row.id == TopicId::kServiceStatus || row.id == TopicId::kContact ||
-           row.id == TopicId::kForecast;
-  });
-}
-
 /// The earliest intersection is for monitors: it is computed for its readers.
 std::vector<std::string> TopicsOfServiceForSimulators() {
   return TopicsOf([](const TopicRow& row) {
@@ -68,9 +60,10 @@ std::vector<Rule> RulesOf(const Grantee& grantee) {
   const Rule watches{true, watchers, TopicsOf(Source::kWatchers)};
   switch (grantee.role) {
     case DdsRole::kService:
+      // A standby follows other services, and a health check has the credentials of its service.
       return {{true, world, TopicsOf(Source::kService)},
               reads_simulators,
-              {false, world, TopicsOfOtherServices()},
+              reads_service,
               {false, operators, TopicsOf(Source::kOperators)}};
     case DdsRole::kSimulator:
       return {{true, world + "." + grantee.name, TopicsOf(Source::kSimulators)},

@@ -25,21 +25,24 @@ std::array<unsigned char, 16> IdOf(const dds_builtintopic_guid_t& guid) {
   return id;
 }
 
-/// Calls `use` for all samples of living instances that a reader of a builtin topic has; they stay
-/// there.
+/// Calls `use` for all samples of the instances in these states that a reader of a builtin topic
+/// has. Those of living ones stay there.
 template <typename Sample, typename Use>
-void ForEach(dds_entity_t reader, Use use) {
+void ForEach(dds_entity_t reader, std::uint32_t states, Use use) {
   std::vector<void*> samples(kReadMax);
   std::vector<dds_sample_info_t> infos(kReadMax);
-  const dds_return_t count =
-      dds_read_mask(reader, samples.data(), infos.data(), kReadMax, kReadMax,
-                    DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ALIVE_INSTANCE_STATE);
+  const auto get = states == DDS_ALIVE_INSTANCE_STATE ? &dds_read_mask : &dds_take_mask;
+  const dds_return_t count = get(reader, samples.data(), infos.data(), kReadMax, kReadMax,
+                                 DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | states);
   for (dds_return_t i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>(i);
     if (infos[at].valid_data) use(*static_cast<const Sample*>(samples[at]));
   }
   if (count > 0) dds_return_loan(reader, samples.data(), count);
 }
+
+constexpr std::uint32_t kEnded =
+    DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE | DDS_NOT_ALIVE_NO_WRITERS_INSTANCE_STATE;
 
 }  // namespace
 
@@ -59,21 +62,27 @@ StrangerWatch::StrangerWatch(dds_entity_t participant) {
 
 std::map<StrangerWatch::Id, std::string> StrangerWatch::Present() const {
   std::map<Id, std::string> present;
-  ForEach<dds_builtintopic_participant_t>(participants_, [&](const auto& participant) {
+  const auto note = [&](const dds_builtintopic_participant_t& participant) {
     const Id id = IdOf(participant.key);
     if (id == own_) return;
     present[id] = PropertyOf(participant.qos, "__ProcessName") + " (pid " +
                   PropertyOf(participant.qos, "__Pid") + " on " +
                   PropertyOf(participant.qos, "__Hostname") + ")";
-  });
+  };
+  ForEach<dds_builtintopic_participant_t>(participants_, DDS_ALIVE_INSTANCE_STATE, note);
+  ForEach<dds_builtintopic_participant_t>(participants_, kEnded, [](const auto&) {});
   return present;
 }
 
 void StrangerWatch::SettleAdmitted(dds_entity_t endpoints) {
-  ForEach<dds_builtintopic_endpoint_t>(endpoints, [this](const auto& endpoint) {
+  const auto settle = [this](const dds_builtintopic_endpoint_t& endpoint) {
     const auto known = programs_.find(IdOf(endpoint.participant_key));
     if (known != programs_.end()) known->second.is_settled = true;
-  });
+  };
+  ForEach<dds_builtintopic_endpoint_t>(endpoints, DDS_ALIVE_INSTANCE_STATE, settle);
+  // A program that was here for less than a period; the end of its participant may go unnoticed
+  // until its lease is over.
+  ForEach<dds_builtintopic_endpoint_t>(endpoints, kEnded, settle);
 }
 
 std::vector<std::string> StrangerWatch::Look(Time now) {

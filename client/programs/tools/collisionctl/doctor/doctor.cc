@@ -62,7 +62,7 @@ std::vector<std::uint32_t> LookElsewhere(const DoctorOptions& options) {
     for (std::uint32_t domain = first; domain < end; ++domain) {
       if (domain == options.domain) continue;
       try {
-        lookouts.emplace_back(domain, DdsLookout(domain, options.credentials));
+        lookouts.emplace_back(domain, DdsLookout(domain, options.credentials, options.world));
       } catch (const std::runtime_error&) {
         continue;  // a port of the domain is in use by another kind of program
       }
@@ -94,14 +94,14 @@ std::string ProfileWith(const std::string& host, std::uint32_t domain) {
 /// The profile is read when a process has its first participant in a domain: there is none now.
 bool AnswersByUnicast(const DoctorOptions& options) {
   setenv("CYCLONEDDS_URI", ProfileWith(options.host, options.domain).c_str(), 1);
-  const DdsLookout lookout(options.domain, options.credentials);
+  const DdsLookout lookout(options.domain, options.credentials, options.world);
   const auto serves = [&](const DdsNeighbours& seen) { return Serves(seen, options.world); };
   return serves(LookUntil(lookout, serves));
 }
 
 /// What the world tells until it is known, or the time is over.
 void Listen(const DoctorOptions& options, WorldView* view, DoctorSeen* seen) {
-  const DdsLookout lookout(options.domain, options.credentials);
+  const DdsLookout lookout(options.domain, options.credentials, options.world);
   MessageMonitor monitor({.world = options.world,
                           .domain = options.domain,
                           .simulators = true,

@@ -135,6 +135,7 @@ class Doctor {
   /// Programs that show no reader or writer, and are services or do not say what they are, as those
   /// of a secured world do not.
   std::string Hidden() const {
+    if (seen_.has_credentials) return "";
     std::vector<std::string> names;
     for (const auto& [key, program] : seen_.neighbours.programs) {
       const bool is_shown = std::ranges::any_of(
