@@ -54,8 +54,20 @@ TEST(FlightRecorder, WhatAKilledServiceSawIsReplayedAndWhatItToldIsListed) {
   daemon = world.StartDaemon();
   EXPECT_GT(SegmentsOf(world).size(), segments.size()) << "a start begins a segment";
 
+  // Both starts are replayed, though the first one's last segment is cut, and one file holds
+  // nothing.
+  const std::string empty = state + "/recordings/" + world.name() + ".114.20990101T000000.000Z.rec";
+  std::ofstream{empty};
   const Outcome replay = Replay({state});
+  EXPECT_EQ(replay.status, 74) << replay.err;
   EXPECT_TRUE(Contains(replay.out, "EVENT_CONFIRMED")) << replay.err;
+  const std::string ends = ".rec: here the replay of this start of the service ends";
+  const std::size_t first =
+      replay.err.find(segments.back().substr(0, segments.back().size() - 4) + ends);
+  ASSERT_NE(first, std::string::npos) << replay.err;
+  EXPECT_NE(replay.err.find(ends, first + segments.back().size()), std::string::npos) << replay.err;
+  EXPECT_TRUE(Contains(replay.err, empty + ": byte 0: ")) << replay.err;
+  std::filesystem::remove(empty);
   std::string contacts;
   for (const std::string& segment : segments) {
     const Outcome alone = Replay({segment});
@@ -86,6 +98,8 @@ TEST(FlightRecorder, ItNeverEndsTheService) {
   const auto daemon = world.StartDaemon();
   EXPECT_TRUE(Contains(daemon->err(), "state/recordings: cannot be written: ")) << daemon->err();
   EXPECT_TRUE(Contains(daemon->err(), "state/contacts: cannot be written: ")) << daemon->err();
+  for (const char* what : {"to keep the flight recorder", "to keep its contacts"})
+    EXPECT_TRUE(world.MonitorComesToSay({"status"}, what)) << what;
   daemon->Signal(SIGTERM);
   EXPECT_EQ(daemon->WaitForExit(), 0) << daemon->err();
 }

@@ -104,7 +104,8 @@ TEST_F(KeptFilesTest, SegmentsAreListedWithWhatIsInThem) {
   EXPECT_TRUE(segments[1].damage.ends_with(": cut off")) << segments[1].damage;
   EXPECT_EQ(SegmentsIn(folder_ + "/recordings").size(), 2u);
   const std::string page = RecordingsPage(segments);
-  EXPECT_NE(page.find("2026-09-21T14:13:20Z 2026-09-21T14:13:22Z"), std::string::npos) << page;
+  EXPECT_NE(page.find("2026-09-21T14:13:20.000Z 2026-09-21T14:13:22.000Z"), std::string::npos)
+      << page;
   EXPECT_NE(page.find("\n  damaged: " + segments[1].file.path + ": byte "), std::string::npos);
   EXPECT_EQ(ComplaintsAbout({RecordingsJson(folder_, segments)}), "");
   EXPECT_TRUE(SegmentsIn(folder_ + "/none").empty());
