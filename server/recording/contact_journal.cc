@@ -18,7 +18,7 @@ constexpr std::int64_t kRetryAfter = 60'000'000'000;  // [ns]
 
 }  // namespace
 
-ContactJournal::ContactJournal(RollingPlace place, std::int64_t wall_ns)
+ContactJournal::ContactJournal(const RollingPlace& place, std::int64_t wall_ns)
     : file_bytes_max_(place.bytes_max / kFiles), files_(place) {
   std::optional<wire::KeptFile> newest;
   for (const wire::KeptFile& file : wire::KeptFilesIn(place.folder, place.suffix)) {

@@ -19,7 +19,7 @@ namespace collision::server {
 class ContactJournal final : public ContactSink {
  public:
   /// A file has at most an eighth of `place.bytes_max`.
-  ContactJournal(RollingPlace place, std::int64_t wall_ns);
+  ContactJournal(const RollingPlace& place, std::int64_t wall_ns);
 
   void Add(const v1::CollisionEvent& contact) override;
   void Write(std::int64_t wall_ns) override;

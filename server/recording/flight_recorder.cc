@@ -36,8 +36,8 @@ struct FlightRecorder::Shared {
   };
 
   Shared(RollingPlace place, SegmentLimits limits, const v1::Config& config,
-         const ClaimOptions& claim, std::int64_t wall_ns, std::uint64_t most)
-      : bytes_max(most),
+         const ClaimOptions& claim, std::int64_t wall_ns)
+      : bytes_max(limits.queue_bytes),
         missed(NewestBytesMax(config)),
         segments(std::move(place), limits, config, claim, wall_ns),
         failure(segments.failure()) {}
@@ -56,10 +56,8 @@ struct FlightRecorder::Shared {
 };
 
 FlightRecorder::FlightRecorder(RollingPlace place, SegmentLimits limits, const v1::Config& config,
-                               const ClaimOptions& claim, std::int64_t wall_ns,
-                               std::uint64_t queue_bytes_max)
-    : shared_(std::make_shared<Shared>(std::move(place), limits, config, claim, wall_ns,
-                                       queue_bytes_max)) {
+                               const ClaimOptions& claim, std::int64_t wall_ns)
+    : shared_(std::make_shared<Shared>(std::move(place), limits, config, claim, wall_ns)) {
   std::thread([shared = shared_] { Write(shared); }).detach();
 }
 

@@ -31,9 +31,6 @@ class FlightSink {
   virtual std::string failure() const = 0;
 };
 
-/// Batches that wait for the disk, in bytes, about.
-inline constexpr std::uint64_t kFlightQueueBytesMax = 64 << 20;
-
 /// How long the end of the service waits for the disk; what is not written then is lost.
 inline constexpr std::chrono::seconds kFlightEndPatience{2};
 
@@ -46,8 +43,7 @@ inline constexpr std::chrono::seconds kFlightEndPatience{2};
 class FlightRecorder final : public FlightSink {
  public:
   FlightRecorder(RollingPlace place, SegmentLimits limits, const v1::Config& config,
-                 const ClaimOptions& claim, std::int64_t wall_ns,
-                 std::uint64_t queue_bytes_max = kFlightQueueBytesMax);
+                 const ClaimOptions& claim, std::int64_t wall_ns);
   /// Waits until all is written, at most kFlightEndPatience.
   ~FlightRecorder() override;
   FlightRecorder(const FlightRecorder&) = delete;

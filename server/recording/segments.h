@@ -15,6 +15,7 @@ struct SegmentLimits {
   std::uint64_t bytes = 0;  ///< Of a segment, at most; the batch that passes it is its last.
   std::int64_t age_ns = 0;  ///< Likewise, of monotonic time.
   std::int64_t retry_ns = 60'000'000'000;  ///< After a failure, until the next attempt.
+  std::uint64_t queue_bytes = 64 << 20;    ///< Of batches that wait for the disk, about.
 };
 
 /// Writes a recording in **segments**. A segment is a recording of its own: its header holds the

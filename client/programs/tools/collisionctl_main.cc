@@ -264,6 +264,21 @@ int Operate(const ViewOptions& options, const v1::OperatorCommand& command) {
   }
 }
 
+/// The exit code, where the command line asks for no more than help or is wrong.
+std::optional<int> Parse(CLI::App* app, int argc, char** argv) {
+  try {
+    app->parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::RequiredError& error) {
+    const std::vector<std::string> words = app->remaining();
+    if (words.empty() || !app->get_subcommands().empty()) return app->exit(error), kExitUsage;
+    std::cerr << "collisionctl: \"" << words.front() << "\": no such command; see --help\n";
+    return kExitUsage;
+  } catch (const CLI::ParseError& error) {
+    return app->exit(error) == 0 ? kExitOk : kExitUsage;
+  }
+}
+
 int Main(int argc, char** argv) {
   CLI::App app("Shows what collisiond and the simulators of a world publish.", "collisionctl");
   ViewOptions options;
@@ -286,16 +301,7 @@ int Main(int argc, char** argv) {
   const CLI::App* recordings = AddRecordings(&app, &options.kept);
   AddExamples(&app);
   AddVersion(&app);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::RequiredError& error) {
-    const std::vector<std::string> words = app.remaining();
-    if (words.empty() || !app.get_subcommands().empty()) return app.exit(error), kExitUsage;
-    std::cerr << "collisionctl: \"" << words.front() << "\": no such command; see --help\n";
-    return kExitUsage;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitOk : kExitUsage;
-  }
+  if (const std::optional<int> code = Parse(&app, argc, argv)) return *code;
   if (health_command->parsed()) return RunHealth(With(options, health));
   if (doctor_command->parsed()) return RunDoctor(With(options, doctor));
   if (sphere_tree->parsed()) {

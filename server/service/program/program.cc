@@ -195,6 +195,23 @@ ConfigResult LoadAgain(const Options& options) {
   return refused;
 }
 
+/// Null if `file` is empty: nothing is recorded.
+std::unique_ptr<RecordingWriter> MakeRecorder(const std::string& file, const v1::Config& config,
+                                              const ClaimOptions& claim) {
+  if (file.empty()) return nullptr;
+  KeepFormerRecordings(file);
+  return std::make_unique<RecordingWriter>(file, config, claim);
+}
+
+/// As a reload reads it.
+std::function<ConfigResult()> LoaderOf(const Options& options) {
+  return [options] {
+    ConfigResult loaded = LoadAgain(options);
+    TakeFoldersOfSystemd(&loaded.config);
+    return loaded;
+  };
+}
+
 /// `again`: it has left the world to another service, and is to stand by for that one.
 std::optional<int> ServeOnce(const v1::Config& config, const Options& options, bool again) {
   std::shared_ptr<TreeCache> cache;
@@ -227,10 +244,7 @@ std::optional<int> ServeOnce(const v1::Config& config, const Options& options, b
   const ClaimOptions claim = ClaimOf(config, journal.get(), opens_later, again);
   std::unique_ptr<RecordingWriter> recorder;
   try {
-    if (!options.record_file.empty()) {
-      KeepFormerRecordings(options.record_file);
-      recorder = std::make_unique<RecordingWriter>(options.record_file, config, claim);
-    }
+    recorder = MakeRecorder(options.record_file, config, claim);
   } catch (const std::runtime_error& error) {
     return Fail(kExitFile, error.what());
   }
@@ -253,11 +267,7 @@ std::optional<int> ServeOnce(const v1::Config& config, const Options& options, b
                             .failure = std::move(state_failure)},
                 .quarantine = quarantine.get(),
                 .claim = claim,
-                .load_config = [options] {
-                  ConfigResult loaded = LoadAgain(options);
-                  TakeFoldersOfSystemd(&loaded.config);
-                  return loaded;
-                }});
+                .load_config = LoaderOf(options)});
 }
 
 int Serve(const v1::Config& config, const Options& options) {

@@ -257,8 +257,8 @@ TEST_F(SegmentsTest, OnAFullDiskTheOldestMakesRoom) {
 TEST_F(SegmentsTest, ASlowDiskLeavesAGapThatIsTold) {
   constexpr int kBatches = 3000;
   {
-    FlightRecorder recorder(Place(1 << 30), {.bytes = 20'000, .age_ns = kStart}, config_,
-                            {.instance = 7}, kStart, 1);
+    const SegmentLimits limits{.bytes = 20'000, .age_ns = kStart, .queue_bytes = 1};
+    FlightRecorder recorder(Place(1 << 30), limits, config_, {.instance = 7}, kStart);
     for (int i = 0; i < kBatches; ++i) {
       auto batch = std::make_shared<v1::RecordedBatch>(Batch(i, 100));
       recorder.Take(batch, recorder.wants_opening() ? std::optional(OfAlpha()) : std::nullopt);
