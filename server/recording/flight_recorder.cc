@@ -38,7 +38,7 @@ struct FlightRecorder::Shared {
   Shared(RollingPlace place, SegmentLimits limits, const v1::Config& config,
          const ClaimOptions& claim, std::int64_t wall_ns)
       : bytes_max(limits.queue_bytes),
-        missed(NewestBytesMax(config)),
+        missed(NewestBytesMax(config), true),
         segments(std::move(place), limits, config, claim, wall_ns),
         failure(segments.failure()) {}
 
@@ -52,7 +52,7 @@ struct FlightRecorder::Shared {
   bool ends = false, has_ended = false;
   Segments segments;  ///< The thread's.
   std::string failure;
-  std::atomic<bool> wants_opening = false;
+  std::atomic<bool> wants_opening = false, wants_census = false;
 };
 
 FlightRecorder::FlightRecorder(RollingPlace place, SegmentLimits limits, const v1::Config& config,
@@ -73,6 +73,8 @@ FlightRecorder::~FlightRecorder() {
 
 bool FlightRecorder::wants_opening() const { return shared_->wants_opening; }
 
+bool FlightRecorder::wants_census() const { return shared_->wants_census; }
+
 std::string FlightRecorder::failure() const {
   const std::lock_guard lock(shared_->mutex);
   return shared_->failure;
@@ -90,7 +92,7 @@ void FlightRecorder::Take(std::shared_ptr<const v1::RecordedBatch> batch,
     }
     return;
   }
-  if (opening) shared_->wants_opening = false;
+  if (opening) shared_->wants_opening = shared_->wants_census = false;
   shared_->bytes += bytes;
   shared_->queue.push_back({std::move(batch), std::move(opening), bytes});
   shared_->changed.notify_all();
@@ -103,7 +105,7 @@ void FlightRecorder::Write(const std::shared_ptr<Shared>& shared) {
     all.changed.wait(lock, [&] { return all.ends || all.misses || !all.queue.empty(); });
     if (all.ends && all.queue.empty()) break;
     if (all.queue.empty()) {
-      NewestInputs missed = std::exchange(all.missed, NewestInputs(all.missed.bytes_max()));
+      NewestInputs missed = std::exchange(all.missed, NewestInputs(all.missed.bytes_max(), true));
       all.misses = false;
       lock.unlock();
       all.segments.Miss(&missed);
@@ -123,7 +125,9 @@ void FlightRecorder::Write(const std::shared_ptr<Shared>& shared) {
     all.failure = all.segments.failure();
     // One that is on its way is not asked for again.
     const auto brings_one = [](const Shared::Item& item) { return item.opening.has_value(); };
-    all.wants_opening = all.segments.wants_opening() && std::ranges::none_of(all.queue, brings_one);
+    const bool comes = std::ranges::any_of(all.queue, brings_one);
+    all.wants_opening = all.segments.wants_opening() && !comes;
+    all.wants_census = all.segments.wants_census() && !comes;
   }
   lock.unlock();
   all.segments.End();

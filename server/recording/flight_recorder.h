@@ -27,6 +27,9 @@ class FlightSink {
   /// A new segment is due: the next Take() should bring an Opening.
   virtual bool wants_opening() const = 0;
 
+  /// The next Take() should bring an Opening that says what the service has; it begins no segment.
+  virtual bool wants_census() const = 0;
+
   /// Why nothing is recorded at the moment, in one line; empty: it is.
   virtual std::string failure() const = 0;
 };
@@ -52,6 +55,7 @@ class FlightRecorder final : public FlightSink {
   void Take(std::shared_ptr<const v1::RecordedBatch> batch,
             std::optional<Opening> opening) override;
   bool wants_opening() const override;
+  bool wants_census() const override;
   std::string failure() const override;
 
  private:

@@ -87,6 +87,7 @@ void NewestInputs::Put(const Key& key, Kept kept) {
     ++left_out_;
     return;
   }
+  if (bytes > bytes_) new_bytes_ += bytes - bytes_;
   bytes_ = bytes;
   if (known != kept_.end()) {
     known->second = std::move(kept);
@@ -101,14 +102,14 @@ void NewestInputs::Erase(const Key& key) {
     bytes_ -= known->second.serialised.size() + kOverhead;
     kept_.erase(known);
   }
-  if (bytes_ + removed_.size() * kOverhead < bytes_max_) removed_.emplace(key, true);
+  if (follows_ && bytes_ + removed_.size() * kOverhead < bytes_max_) removed_.insert(key);
 }
 
 void NewestInputs::Take(NewestInputs* later) {
-  for (const auto& [key, removed] : later->removed_) Erase(key);
+  for (const Key& key : later->removed_) Erase(key);
   for (auto& [key, kept] : later->kept_) Put(key, std::move(kept));
   left_out_ += later->left_out_;
-  *later = NewestInputs(later->bytes_max_);
+  *later = NewestInputs(later->bytes_max_, true);
 }
 
 bool NewestInputs::IsPresent(const Key& key, const Kept& kept,
@@ -150,7 +151,13 @@ void NewestInputs::Keep(const std::map<std::uint64_t, PresentSimulator>& present
     if (is_over) bytes_ -= one.second.serialised.size() + kOverhead;
     return is_over;
   });
+  present_bytes_ = 0;
+  for (const auto& [key, kept] : kept_) {
+    if (present.contains(std::get<0>(key)) || std::get<2>(key) == Kind::kReady)
+      present_bytes_ += kept.serialised.size() + kOverhead;
+  }
   removed_.clear();
+  new_bytes_ = 0;
   ++turn_;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 
@@ -28,6 +29,7 @@ struct PresentSimulator {
 /// What the service knows between two steps that no input says again.
 struct Opening {
   ClaimOptions claim;  ///< With which a replay goes on from here: it serves at once.
+  bool serves = true;  ///< False: another service has the world, and no segment begins here.
   std::map<std::uint64_t, PresentSimulator> simulators = {};  ///< By id.
 };
 
@@ -40,23 +42,31 @@ std::uint64_t NewestBytesMax(const v1::Config& config);
 /// and an Opening, a replay can begin at this moment.
 ///
 /// Removals take what they remove. What the service has let go of without one (a simulator that was
-/// evicted, whose run or epoch is over, or whose name went to another program) leaves with Keep().
-/// Between two calls it is bounded by `bytes_max`, beyond which inputs of new keys are left out and
-/// counted. One thread.
+/// evicted, whose run or epoch is over, or whose name went to another program), or has never taken,
+/// leaves with Keep(). So that whoever writes ever-new keys takes no memory, that is due when what
+/// is new since the last call takes more than all of it that the service had then, and
+/// kNewBytes (wants_census()): it holds three times the world, and twice kNewBytes, at most. If the
+/// call does not come, it is bounded by `bytes_max`, beyond which inputs of new keys are left out
+/// and counted. One thread.
 class NewestInputs {
  public:
-  explicit NewestInputs(std::uint64_t bytes_max) : bytes_max_(bytes_max) {}
+  /// `follows`: it will be taken by another one, of what came before, and so notes what is removed.
+  explicit NewestInputs(std::uint64_t bytes_max, bool follows = false)
+      : bytes_max_(bytes_max), follows_(follows) {}
 
   /// `serialised`: the input's bytes.
   void Take(const v1::Input& input, std::string serialised);
 
-  /// Takes those of `later` in place of its own, which leaves `later` empty.
+  /// Takes those of `later`, which follows it, in place of its own, and leaves `later` empty.
   void Take(NewestInputs* later);
 
   /// Forgets what the service does not have, but what has come since the last call of simulators
   /// that it does not know: their names may still come. A clock then names nothing that has
   /// arrived and is not kept: that is over, as a removal is, and will not come again.
   void Keep(const std::map<std::uint64_t, PresentSimulator>& present);
+
+  /// Keep() is due.
+  bool wants_census() const { return new_bytes_ > present_bytes_ + kNewBytes; }
 
   /// All but what VisitReady() visits, by simulator and kind: as inputs of one batch.
   void Visit(const std::function<void(const std::string& serialised)>& visit) const;
@@ -70,6 +80,7 @@ class NewestInputs {
   std::uint64_t left_out() const { return left_out_; }  ///< Since the start.
 
   static constexpr std::uint64_t kOverhead = 200;
+  static constexpr std::uint64_t kNewBytes = 4 << 20;
 
  private:
   enum class Kind { kHello, kDescription, kShape, kStates, kClock, kReady };
@@ -91,9 +102,12 @@ class NewestInputs {
                  const std::map<std::uint64_t, PresentSimulator>& present) const;
 
   std::uint64_t bytes_max_;
+  bool follows_;
   std::map<Key, Kept> kept_;
-  std::map<Key, bool> removed_;  ///< For Take(NewestInputs*): what they removed.
+  std::set<Key> removed_;  ///< If it follows another one.
   std::uint64_t bytes_ = 0, left_out_ = 0, turn_ = 0;
+  std::uint64_t new_bytes_ = 0;      ///< Came since the last Keep().
+  std::uint64_t present_bytes_ = 0;  ///< Of what the service had then.
 };
 
 }  // namespace collision::server

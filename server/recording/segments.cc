@@ -59,7 +59,12 @@ Segments::Segments(RollingPlace place, SegmentLimits limits, const v1::Config& c
 void Segments::Take(const v1::RecordedBatch& batch, const std::optional<Opening>& opening) {
   wall_ns_ = batch.wall_ns();
   monotonic_ns_ = batch.monotonic_ns();
-  if (opening) Begin(batch, *opening);
+  const bool is_due = wants_opening_ || !newest_.wants_census();
+  if (opening && !(opening->serves && is_due)) {
+    newest_.Keep(opening->simulators);
+  } else if (opening) {
+    Begin(batch, *opening);
+  }
   std::string inputs;
   for (const v1::Input& input : batch.inputs()) {
     std::string serialised = input.SerializeAsString();

@@ -25,9 +25,10 @@ struct SegmentLimits {
 /// The first segment of a process has none: it begins where the service does.
 ///
 /// A segment that is full asks for an Opening (wants_opening()); the batch that brings one is the
-/// first of the next segment. Where the service can give none, since another one serves, the
-/// segment ends at twice its size, and recording goes on when it serves. The last entry of a
-/// segment says whether the next one follows without a gap; a process that was killed writes none.
+/// first of the next segment. Where newest inputs want a census, an Opening without a new segment
+/// is one. Where the service can give none, since another one serves, the segment ends at twice its
+/// size, and recording goes on when it serves. The last entry of a segment says whether the next
+/// one follows without a gap; a process that was killed writes none.
 ///
 /// A failure, as of a full disk of which nothing is ours to remove, ends the segment; failure()
 /// says why, and after `retry_ns` an Opening is asked for to begin another one. Meanwhile the
@@ -51,6 +52,7 @@ class Segments {
   void End();
 
   bool wants_opening() const { return wants_opening_; }
+  bool wants_census() const { return newest_.wants_census(); }
 
   /// One line with path and cause, while nothing is recorded for that reason; else empty.
   const std::string& failure() const { return failure_; }

@@ -33,6 +33,7 @@ class StepRecorder {
 
   /// The flight recorder is to begin a segment, with the batch recorded next.
   bool wants_opening() const { return flight_ != nullptr && flight_->wants_opening(); }
+  bool wants_census() const { return flight_ != nullptr && flight_->wants_census(); }
   void Open(Opening opening) { opening_ = std::move(opening); }
 
   /// Before the step applies it. False: nothing more is recorded to the sink from now on, told

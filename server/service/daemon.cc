@@ -196,8 +196,9 @@ class Daemon::Implementation {
 
   /// False: that failed, and ends the service.
   bool Record(const SharedBatch& batch) {
-    const bool serves = claim_.phase() == ClaimPhase::kServing;
-    if (serves && recorder_.wants_opening()) recorder_.Open(OpeningOf(world_, claim_));
+    const bool begins = claim_.phase() == ClaimPhase::kServing && recorder_.wants_opening();
+    if (begins || (claim_.works() && recorder_.wants_census()))
+      recorder_.Open(OpeningOf(world_, claim_));
     if (recorder_.Record(batch)) return true;
     spdlog::error("{}; nothing more is recorded", recorder_.failure());
     schedule_.Hasten();

@@ -21,6 +21,7 @@ class WrittenAtOnce final : public FlightSink {
     segments_.Flush();
   }
   bool wants_opening() const override { return segments_.wants_opening(); }
+  bool wants_census() const override { return segments_.wants_census(); }
   std::string failure() const override { return segments_.failure(); }
 
   int openings() const { return openings_; }

@@ -15,9 +15,8 @@ namespace {
 
 constexpr char kKeys[] = "200000";
 
-/// 200,000 keys would take 110 MB, disposed of 220 MB, if a reader kept them. A batch of what came
-/// while the step before was busy is in memory as a whole: on a busy machine some 70 MB.
-constexpr double kGrowthMaxMb = 90;
+/// 200,000 keys would take 110 MB, disposed of 220 MB, if a reader kept them.
+constexpr double kGrowthMaxMb = 40;
 
 double ResidentMb(pid_t process) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
@@ -32,8 +31,7 @@ double ResidentMb(pid_t process) {
 class Flood : public testing::TestWithParam<const char*> {};
 
 TEST_P(Flood, CostsNoMemoryAndNoOtherItsAnswers) {
-  // What waits for the flight recorder's disk, up to 64 MB, is no matter of keys.
-  const TestWorld world(82, "simulators_awaited: 1", "waiting_mb_max: 16\nrecorder_mb_max: 0\n");
+  const TestWorld world(82, "simulators_awaited: 1", "waiting_mb_max: 16\n");
   const auto daemon = world.StartDaemon();
   const auto honest = world.StartHelper("flood", {"answers", "8"});
   ASSERT_TRUE(honest->WaitForOutput("steps")) << honest->err() << daemon->err();

@@ -27,7 +27,7 @@ PresentSimulator PresentOf(const Simulator& simulator, const World& world) {
 }  // namespace
 
 Opening OpeningOf(const World& world, const ServiceClaim& claim) {
-  Opening opening{.claim = claim.options()};
+  Opening opening{.claim = claim.options(), .serves = claim.phase() == ClaimPhase::kServing};
   ClaimOptions& options = opening.claim;
   options.term_before = claim.term() - 1;
   options.wait_ns = 0;

@@ -116,6 +116,34 @@ TEST(NewestInputs, IsBounded) {
   EXPECT_EQ(newest.left_out(), left_out);
 }
 
+// Goal:   ever-new keys, written or removed, of names that nobody has take no memory, and what the
+//         service has stays.
+TEST(NewestInputs, EverNewKeysTakeNoMemory) {
+  NewestInputs newest(std::uint64_t{1} << 40);
+  Take(From(1, Description("alpha", 0)), &newest);
+  Take(From(1, ClockOf("alpha", 1)), &newest);
+  const std::size_t of_alpha = newest.size();
+  const std::map<std::uint64_t, PresentSimulator> present = {
+      {SimulatorId("alpha"),
+       {.sender = 1, .run = 1, .is_in_time = true, .descriptions_seen = 1, .agents = {{0, 1}}}}};
+  constexpr int kKeys = 200'000;
+  int censuses = 0;
+  for (int key = 0; key < kKeys; ++key) {
+    const std::string name = "stranger" + std::to_string(key);
+    Take(key % 2 == 0 ? From(2, ClockOf(name, 1)) : Removal(2, name, 0), &newest);
+    if (newest.wants_census()) {
+      newest.Keep(present);
+      ++censuses;
+    }
+    ASSERT_LT(newest.bytes(), 2 * NewestInputs::kNewBytes + 10'000) << key;
+  }
+  EXPECT_GT(censuses, 3);
+  EXPECT_LT(censuses, 20) << "each costs a look at the whole world";
+  newest.Keep(present);
+  newest.Keep(present);
+  EXPECT_EQ(newest.size(), of_alpha);
+}
+
 // Goal:   two halves, one after another, are as the whole.
 TEST(NewestInputs, LaterOnesReplaceAndRemove) {
   const std::vector<v1::Input> inputs = {
@@ -126,7 +154,7 @@ TEST(NewestInputs, LaterOnesReplaceAndRemove) {
   NewestInputs whole(kPlenty);
   for (const v1::Input& input : inputs) Take(input, &whole);
   for (std::size_t half = 0; half <= inputs.size(); ++half) {
-    NewestInputs first(kPlenty), second(kPlenty);
+    NewestInputs first(kPlenty), second(kPlenty, true);
     for (std::size_t i = 0; i < inputs.size(); ++i) Take(inputs[i], i < half ? &first : &second);
     first.Take(&second);
     const std::vector<v1::Input> all = AllOf(first), wanted = AllOf(whole);

@@ -114,6 +114,20 @@ TEST_F(SegmentsTest, RollBySizeAndEachBeginsWithWhatIsNewest) {
   }
 }
 
+// Goal:   what ever-new keys take is given back without a new segment.
+TEST_F(SegmentsTest, ACensusBeginsNoSegment) {
+  Segments segments = Begin(Place(1 << 30), {.bytes = 1 << 30, .age_ns = kStart});
+  for (int i = 0; i < 40'000; ++i) {
+    v1::RecordedBatch batch = Batch(i, 10);
+    *batch.add_inputs() = From(2, ClockOf("stranger" + std::to_string(i), 1));
+    const bool asks = segments.wants_opening() || segments.wants_census();
+    segments.Take(batch, asks ? std::optional(OfAlpha()) : std::nullopt);
+    ASSERT_LT(segments.newest().bytes(), 2 * NewestInputs::kNewBytes + 10'000);
+  }
+  segments.End();
+  EXPECT_EQ(Files().size(), 1u);
+}
+
 TEST_F(SegmentsTest, RollByAge) {
   Segments segments = Begin(Place(1 << 30), {.bytes = 1 << 20, .age_ns = 10 * kSecondNs});
   for (int i = 0; i < 65; ++i) Step(&segments, Batch(i));
