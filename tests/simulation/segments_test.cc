@@ -13,9 +13,11 @@
 #include <tuple>
 #include <vector>
 
+#include "idl/shape_bytes.h"
 #include "server/recording/replay.h"
 #include "server/recording/segment_chain.h"
 #include "tests/simulation/scenario.h"
+#include "tests/support/meshes.h"
 #include "tests/support/written_at_once.h"
 
 namespace collision::server {
@@ -115,13 +117,43 @@ Replayed Replay(const std::string& path, const ReplayRange& range = {}) {
   return replayed;
 }
 
+void AddCrowd(Scenario* scenario) {
+  Random random(42);
+  scenario->Add({.name = "alpha", .sender = 1, .period_ns = 120'000'000, .end_ns = kEnd},
+                Crowd(16, kEnd, &random));
+  scenario->Add(
+      {.name = "beta", .sender = 2, .period_ns = 300'000'000, .end_ns = kEnd, .chunk_size = 8},
+      Crowd(16, kEnd, &random));
+}
+
+/// A body that told its shape and its state before all but the first segment, and balls that reach
+/// it one after the other. Ball by ball the two would touch a second earlier.
+void AddBodyAtRest(Scenario* scenario) {
+  const geometry::TriangleMesh mesh = Rod(1.2, 0.15);
+  ShapeContent content;
+  for (const auto& p : mesh.vertices) content.vertices.push_back({p.x(), p.y(), p.z()});
+  content.triangles = mesh.triangles;
+  std::vector<SimulatedAgent> balls;
+  for (int i = 0; i < 7; ++i) {
+    balls.push_back({.radius = 0.2,
+                     .acceleration_max = 0.01,
+                     .motion = Straight({0, 0, -4.0 - 5 * i}, {0, 0, 1}, kEnd)});
+  }
+  scenario->Add({.name = "alpha", .sender = 1, .period_ns = 100'000'000, .end_ns = kEnd}, balls);
+  scenario->Add({.name = "beta", .sender = 2, .period_ns = kEnd / 2, .end_ns = kEnd},
+                {{.radius = 1.3,
+                  .motion = Straight({0, 0, 0}, {0, 0, 0}, kEnd),
+                  .shape_bytes = EncodeShape(content)}});
+}
+
 class SegmentsOfARun : public testing::Test {
  protected:
   SegmentsOfARun() { std::filesystem::remove_all(folder_); }
   ~SegmentsOfARun() override { std::filesystem::remove_all(folder_); }
 
-  /// Records the run in segments of about so many bytes. Returns their paths.
-  std::vector<std::string> Record(std::uint64_t bytes) {
+  /// Records a run of two simulators, which `add` adds, in segments of about so many bytes. Returns
+  /// their paths.
+  std::vector<std::string> Record(std::uint64_t bytes, const std::function<void(Scenario*)>& add) {
     Segments segments({.folder = folder_,
                        .world_and_domain = "default.0",
                        .suffix = ".rec",
@@ -129,12 +161,7 @@ class SegmentsOfARun : public testing::Test {
                       {.bytes = bytes, .age_ns = 1000 * kSecond}, config_, {}, 1);
     WrittenAtOnce flight(&segments);
     Scenario scenario(config_, Lossy(5));
-    Random random(42);
-    scenario.Add({.name = "alpha", .sender = 1, .period_ns = 120'000'000, .end_ns = kEnd},
-                 Crowd(16, kEnd, &random));
-    scenario.Add(
-        {.name = "beta", .sender = 2, .period_ns = 300'000'000, .end_ns = kEnd, .chunk_size = 8},
-        Crowd(16, kEnd, &random));
+    add(&scenario);
     scenario.StartService(nullptr, nullptr, &flight);
     scenario.StartSimulators();
     scenario.Run();
@@ -154,7 +181,7 @@ class SegmentsOfARun : public testing::Test {
 };
 
 TEST_F(SegmentsOfARun, AReplayFromAnySegmentFindsTheContactsFromThereOn) {
-  const std::vector<std::string> paths = Record(60'000);
+  const std::vector<std::string> paths = Record(60'000, AddCrowd);
   ASSERT_GT(paths.size(), 8u);
   ASSERT_GT(live_.size(), 40u);
   for (std::size_t i = 0; i < paths.size(); i += 2) {
@@ -179,6 +206,24 @@ TEST_F(SegmentsOfARun, AReplayFromAnySegmentFindsTheContactsFromThereOn) {
       continue;
     }
     EXPECT_EQ(replayed.hash, hash_) << "the first segment begins with the service";
+  }
+}
+
+// Goal:   what was told once, before the segment, counts: states and shapes.
+TEST_F(SegmentsOfARun, AReplayHasTheStatesAndShapesFromBeforeItsSegment) {
+  const std::vector<std::string> paths = Record(15'000, AddBodyAtRest);
+  ASSERT_GT(paths.size(), 5u);
+  ASSERT_GE(live_.size(), 5u);
+  for (const std::string& path : paths) {
+    SCOPED_TRACE(path);
+    const Replayed replayed = Replay(
+        folder_, {.from_ns = wire::KeptFilesIn(folder_, ".rec")[&path - paths.data()].begin_ns});
+    EXPECT_EQ(replayed.error, "");
+    const std::vector<Contact> found = ContactsOf(replayed.outputs);
+    EXPECT_EQ(Missing(live_, found, replayed.begin_ns), "") << "begins " << replayed.begin_ns;
+    EXPECT_EQ(Missing(found, live_, replayed.begin_ns), "");
+    for (const Contact& one : found)
+      EXPECT_TRUE(IsCertain(one.event)) << "a shape is missing: " << one.event.ShortDebugString();
   }
 }
 
