@@ -54,6 +54,13 @@ std::vector<KeptFile> KeptFilesIn(const std::string& folder, const char* suffix)
   return files;
 }
 
+std::string ListingFailure(const std::string& folder) {
+  std::error_code failed;
+  const std::filesystem::directory_iterator opened(folder, failed);
+  const bool is_missing = failed == std::errc::no_such_file_or_directory;
+  return failed && !is_missing ? failed.message() : "";
+}
+
 bool IsInUse(const std::string& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return false;

@@ -33,6 +33,10 @@ std::string KeptFileName(const std::string& place, std::int64_t begin_ns, const 
 /// folder.
 std::vector<KeptFile> KeptFilesIn(const std::string& folder, const char* suffix);
 
+/// Why a folder that is there cannot be listed: "Permission denied". Empty: it can be, or there is
+/// none.
+std::string ListingFailure(const std::string& folder);
+
 /// Whether a service is writing to it now.
 bool IsInUse(const std::string& path);
 

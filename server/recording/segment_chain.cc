@@ -17,6 +17,10 @@ std::vector<wire::KeptFile> SegmentsIn(const std::string& folder) {
   if (files.empty()) {
     files = wire::KeptFilesIn(folder + "/" + wire::kRecordingsFolder, wire::kRecordingSuffix);
   }
+  for (const std::string& listed : {folder, folder + "/" + wire::kRecordingsFolder}) {
+    const std::string failure = wire::ListingFailure(listed);
+    if (files.empty() && !failure.empty()) throw std::runtime_error(listed + ": " + failure);
+  }
   if (files.empty()) {
     throw std::runtime_error(folder + ": no recording is in it (WORLD.DOMAIN.TIME" +
                              wire::kRecordingSuffix + ")");

@@ -14,9 +14,9 @@ void EventPrinter::PrintCurrent(WorldView* view) {
   out_.flush();
 }
 
-void EventPrinter::PrintNew(WorldView* view) {
+void EventPrinter::PrintNew(WorldView* view, const std::string& told) {
   for (const v1::CollisionEvent& event : view->TakeEvents()) {
-    if (selection_.Takes(event, *view)) Print(event, *view);
+    if (selection_.Takes(event, *view)) Print(event, *view, told);
   }
   out_.flush();
 }
@@ -29,16 +29,18 @@ void EventPrinter::PrintGap(std::uint64_t missed) {
   missed_ = missed;
 }
 
-void EventPrinter::Print(const v1::CollisionEvent& message, const WorldView& view) {
+void EventPrinter::Print(const v1::CollisionEvent& message, const WorldView& view,
+                         const std::string& told) {
   const Event event = FromMessage(message);
   const auto name = [&view](const AgentId& id) { return view.Name(id); };
   const auto full_name = [&view](const AgentId& id) { return view.FullName(id); };
   const std::string sentence =
       format_.explain ? EventSentence(event, full_name, NowOf(message, view), 0) : "";
   if (format_.json) {
-    out_ << EventJson(message, view, sentence) << '\n';
+    out_ << EventJson(message, view, sentence, told) << '\n';
   } else {
-    out_ << (format_.explain ? sentence : EventLine(event, name, 0)) << '\n';
+    out_ << told << (told.empty() ? "" : "  ")
+         << (format_.explain ? sentence : EventLine(event, name, 0)) << '\n';
   }
 }
 

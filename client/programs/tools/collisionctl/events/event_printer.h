@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <ostream>
+#include <string>
 #include <utility>
 
 #include "client/programs/shared/world_view.h"
@@ -25,14 +26,15 @@ class EventPrinter {
   /// The newest revision of each.
   void PrintCurrent(WorldView* view);
 
-  /// Every revision that has come since the last call.
-  void PrintNew(WorldView* view);
+  /// Every revision that has come since the last call. `told`: when it was published, in words that
+  /// stand before each; empty: now.
+  void PrintNew(WorldView* view, const std::string& told = {});
 
   /// Says once how many contacts were lost since it was said last; `missed`: in all.
   void PrintGap(std::uint64_t missed);
 
  private:
-  void Print(const v1::CollisionEvent& event, const WorldView& view);
+  void Print(const v1::CollisionEvent& event, const WorldView& view, const std::string& told = {});
 
   const EventFormat format_;
   EventSelection selection_;

@@ -123,10 +123,11 @@ void AddEvent(const v1::CollisionEvent& message, const WorldView& view, JsonObje
 }
 
 std::string EventJson(const v1::CollisionEvent& event, const WorldView& view,
-                      const std::string& sentence) {
+                      const std::string& sentence, const std::string& told) {
   JsonObject document = JsonDocument("event");
   AddEvent(event, view, &document);
   if (!sentence.empty()) document.Text("explanation", sentence);
+  if (!told.empty()) document.Text("told_utc", told);
   return document.Json();
 }
 

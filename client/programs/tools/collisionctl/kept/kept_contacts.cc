@@ -3,12 +3,16 @@
 #include <chrono>
 #include <exception>
 #include <iostream>
+#include <map>
+#include <tuple>
 #include <vector>
 
+#include "client/library/network/conversion.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/world_view.h"
 #include "idl/recording/entries.h"
 #include "idl/recording/kept_files.h"
+#include "idl/recording/utc.h"
 #include "idl/recording_format.h"
 
 namespace collision::client {
@@ -34,6 +38,25 @@ void ReadFile(const wire::KeptFile& file, const WallRange& range,
     complain(failure.what());
   }
 }
+
+/// Tells what a service has told again, since it took over from another one.
+class TakeOvers {
+ public:
+  /// Whether another service has told this before: the same contact, certified to the same
+  /// instants. A service that lost all counts a pair's contacts from one again, at others.
+  bool Repeats(const v1::CollisionEvent& event) {
+    const Key key(event.stamp().epoch(), FromMessage(event.lower()), FromMessage(event.higher()),
+                  event.level(), event.contact(), event.status(), event.begin().SerializeAsString(),
+                  event.end().SerializeAsString());
+    const std::uint64_t service = event.stamp().service_id();
+    return told_.try_emplace(key, service).first->second != service;
+  }
+
+ private:
+  using Key = std::tuple<std::uint32_t, AgentId, AgentId, std::string, std::uint32_t, int,
+                         std::string, std::string>;
+  std::map<Key, std::uint64_t> told_;  ///< By which service first.
+};
 
 }  // namespace
 
@@ -63,6 +86,7 @@ int PrintKeptContacts(const KeptOptions& options, const std::string& world, std:
   WorldView view;
   const auto hear = view.Callbacks().event;
   EventPrinter printer(format, filter, &std::cout);
+  TakeOvers take_overs;
   const std::string folder = StateFolder(options, world);
   const auto complain = [](const std::string& line) {
     std::cerr << "collisionctl: " << line << '\n';
@@ -70,14 +94,20 @@ int PrintKeptContacts(const KeptOptions& options, const std::string& world, std:
   const std::size_t files = ReadContacts(
       folder, world + "." + std::to_string(domain), range,
       [&](const v1::ToldContact& contact) {
+        if (take_overs.Repeats(contact.event())) return;
         hear(contact.event());
-        printer.PrintNew(&view);
+        printer.PrintNew(&view, wire::UtcText(contact.wall_ns()));
       },
       complain);
   if (files == 0) {
-    complain(folder + "/" + wire::kContactsFolder + ": no journal of contacts of world \"" + world +
-             "\" on domain " + std::to_string(domain) +
-             " is in it; --state-dir names the service's state_dir");
+    const std::string of_contacts = folder + "/" + wire::kContactsFolder;
+    const std::string failure = wire::ListingFailure(of_contacts);
+    if (!failure.empty()) {
+      complain(of_contacts + ": " + failure);
+      return kExitRefused;
+    }
+    complain(of_contacts + ": no journal of contacts of world \"" + world + "\" on domain " +
+             std::to_string(domain) + " is in it; --state-dir names the service's state_dir");
     return kExitRefused;
   }
   if (std::cout) return kExitOk;

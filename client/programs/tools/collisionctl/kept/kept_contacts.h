@@ -26,7 +26,9 @@ std::size_t ReadContacts(const std::string& state_folder, const std::string& pla
                          const std::function<void(const v1::ToldContact&)>& take,
                          const std::function<void(const std::string&)>& complain);
 
-/// Prints them as `events` prints what a service tells. Returns the exit code.
+/// Prints them as `events` prints what a service tells, each behind the time at which it was
+/// published (UTC). What another service told again when it took over is left out. Returns the exit
+/// code.
 int PrintKeptContacts(const KeptOptions& options, const std::string& world, std::uint32_t domain,
                       const EventFormat& format, EventFilter filter);
 

@@ -50,9 +50,10 @@ void Read(const std::string& path, SegmentFacts* facts) {
     facts->damage = "byte 0: it holds nothing";
 }
 
-std::size_t ContactsIn(const std::string& folder, const SegmentFacts& facts) {
+/// Nothing where the journal of contacts is not there.
+std::optional<std::size_t> ContactsIn(const std::string& folder, const SegmentFacts& facts) {
   std::set<std::tuple<std::uint64_t, AgentId, AgentId, std::string, std::uint32_t>> contacts;
-  ReadContacts(
+  const std::size_t files = ReadContacts(
       folder, facts.file.place(), {.since_ns = facts.file.begin_ns, .until_ns = facts.end_ns},
       [&](const v1::ToldContact& told) {
         const v1::CollisionEvent& event = told.event();
@@ -60,6 +61,7 @@ std::size_t ContactsIn(const std::string& folder, const SegmentFacts& facts) {
                          FromMessage(event.higher()), event.level(), event.contact());
       },
       [](const std::string&) {});
+  if (files == 0) return std::nullopt;
   return contacts.size();
 }
 
@@ -98,11 +100,11 @@ std::string RecordingsPage(const std::vector<SegmentFacts>& segments) {
   std::string page = line;
   for (const SegmentFacts& one : segments) {
     const std::string from = wire::UtcText(one.file.begin_ns), to = wire::UtcText(one.end_ns);
-    std::snprintf(line, sizeof line, "%-16s %-23.23sZ %-23.23sZ %8.1f %8llu %10zu %8zu  %s",
+    std::snprintf(line, sizeof line, "%-16s %-23.23sZ %-23.23sZ %8.1f %8llu %10zu %8s  %s",
                   one.file.place().c_str(), from.c_str(), to.c_str(),
                   1e-6 * static_cast<double>(one.file.bytes),
-                  static_cast<unsigned long long>(one.batches), one.simulators, one.contacts,
-                  NameOf(one).c_str());
+                  static_cast<unsigned long long>(one.batches), one.simulators,
+                  one.contacts ? std::to_string(*one.contacts).c_str() : "-", NameOf(one).c_str());
     page += line;
     if (one.number == 1) page += " (the service starts)";
     if (one.is_written) page += " (is being written)";
@@ -125,7 +127,7 @@ std::string RecordingsJson(const std::string& folder, const std::vector<SegmentF
                            .Count("bytes", one.file.bytes)
                            .Count("batches", one.batches)
                            .Count("simulators", one.simulators)
-                           .Count("contacts", one.contacts)
+                           .Add("contacts", one.contacts ? std::to_string(*one.contacts) : "null")
                            .Flag("is_written", one.is_written)
                            .TextOrNull("damage", one.damage)
                            .Json());
@@ -139,6 +141,12 @@ std::string RecordingsJson(const std::string& folder, const std::vector<SegmentF
 int PrintRecordings(const KeptOptions& options, const std::string& world, bool json) {
   const std::string folder = StateFolder(options, world);
   const std::vector<SegmentFacts> segments = SegmentsIn(folder);
+  for (const std::string& listed : {folder, folder + "/" + wire::kRecordingsFolder}) {
+    const std::string failure = wire::ListingFailure(listed);
+    if (failure.empty() || !segments.empty()) continue;
+    std::cerr << "collisionctl: " << listed << ": " << failure << '\n';
+    return kExitRefused;
+  }
   if (segments.empty() && !json) {
     std::cerr << "collisionctl: " << folder << ": no recordings are in it (WORLD.DOMAIN.TIME"
               << wire::kRecordingSuffix << "); the service keeps them in its state_dir\n";

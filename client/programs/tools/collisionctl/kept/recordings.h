@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,10 @@ struct SegmentFacts {
   std::int64_t end_ns = 0;    ///< Wall time of its last batch.
   std::uint64_t batches = 0;  ///< Of the service's steps, without the opening.
   std::size_t simulators = 0;
-  std::size_t contacts = 0;  ///< In the journal of contacts, between its begin and its end.
-  bool is_written = false;   ///< A service is writing to it.
-  std::string damage = {};   ///< One line with the byte; empty: it is whole.
+  /// In the journal of contacts, between its begin and its end; nullopt: there is none.
+  std::optional<std::size_t> contacts = {};
+  bool is_written = false;  ///< A service is writing to it.
+  std::string damage = {};  ///< One line with the byte; empty: it is whole.
 };
 
 /// Of all segments of a folder, or of one that holds such a folder. Reads each to its end.

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "client/programs/tools/collisionctl/kept/kept_contacts.h"
 #include "client/programs/tools/collisionctl/kept/kept_options.h"
@@ -123,6 +125,37 @@ TEST_F(KeptFilesTest, ContactsAreThoseOfTheWorldAndTime) {
   EXPECT_EQ(contacts, (std::vector<std::uint32_t>{1}));
   EXPECT_EQ(ReadContacts(folder_, "lab.2", {}, take, complain), 0u);
   EXPECT_EQ(complaints, "");
+}
+
+// Goal:   each contact is listed with the time at which it was told, and once, though a service
+//         that took over has told it again; not left out where it only bears the same number.
+TEST_F(KeptFilesTest, ContactsAreListedOnceAndWithTheirTime) {
+  std::string bytes;
+  for (const auto& [service, contact, begin_s] :
+       {std::tuple(1, 1, 7), {1, 1, 8}, {2, 1, 7}, {2, 1, 8}, {2, 1, 90}, {2, 2, 7}}) {
+    v1::RecordingEntry entry;
+    entry.mutable_contact()->set_wall_ns(kNow + service * kSecond);
+    v1::CollisionEvent& event = *entry.mutable_contact()->mutable_event();
+    event.mutable_stamp()->set_service_id(static_cast<std::uint64_t>(service));
+    event.set_contact(static_cast<std::uint32_t>(contact));
+    event.set_revision(1);
+    event.mutable_begin()->set_earliest_ns(begin_s * kSecond);
+    event.set_contacts_sequence(static_cast<std::uint64_t>(contact));
+    event.set_status(v1::EVENT_CONFIRMED);
+    wire::AppendEntry(entry, &bytes);
+  }
+  Write("/contacts/lab.5.20260921T141320.000Z.contacts", bytes);
+  KeptOptions options;
+  options.state_dir = folder_;
+  for (const bool json : {false, true}) {
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(PrintKeptContacts(options, "lab", 5, {.json = json}, {}), 0);
+    const std::string out = testing::internal::GetCapturedStdout();
+    EXPECT_EQ(std::ranges::count(out, '\n'), 4) << out;
+    EXPECT_NE(out.find("2026-09-21T14:13:21.000Z"), std::string::npos) << out;
+    EXPECT_NE(out.find("2026-09-21T14:13:22.000Z"), std::string::npos) << out;
+    if (json) EXPECT_EQ(ComplaintsAbout({out.substr(0, out.find('\n'))}), "");
+  }
 }
 
 }  // namespace
