@@ -73,7 +73,7 @@ dds::Partitions PartitionsOf(const DdsSessionOptions& options) {
 
 std::optional<dds::Credentials> CredentialsOf(const DdsSessionOptions& options) {
   if (options.credentials.empty()) return std::nullopt;
-  return dds::Credentials(options.credentials);
+  return dds::Credentials(options.credentials, options.domain);
 }
 
 /// The program on the network: with its credentials, if it has any.

@@ -98,7 +98,7 @@ bool BlocksItsSignals(pid_t process) {
 }
 
 ReloadAnswer AskToReload(pid_t service, std::chrono::nanoseconds patience) {
-  const sigset_t answers = SetOf({SIGUSR1, SIGUSR2});
+  const sigset_t answers = SetOf({SIGUSR1});
   pthread_sigmask(SIG_BLOCK, &answers, nullptr);
   const auto end = std::chrono::steady_clock::now() + patience;
   do {
@@ -108,16 +108,15 @@ ReloadAnswer AskToReload(pid_t service, std::chrono::nanoseconds patience) {
     if (sigqueue(service, SIGHUP, {}) != 0) return ReloadAnswer::kNoProcess;
     const timespec wait = TimeSpecOf(std::min<std::chrono::nanoseconds>(patience, kAskAgainAfter));
     siginfo_t info{};
-    const int signal = sigtimedwait(&answers, &info, &wait);
-    if (signal > 0 && info.si_pid == service) {
-      return signal == SIGUSR1 ? ReloadAnswer::kDone : ReloadAnswer::kRefused;
+    if (sigtimedwait(&answers, &info, &wait) > 0 && info.si_pid == service) {
+      return static_cast<ReloadAnswer>(info.si_value.sival_int);
     }
   } while (std::chrono::steady_clock::now() < end);
   return ReloadAnswer::kNoAnswer;
 }
 
-void AnswerReload(pid_t asker, bool done) {
-  if (asker > 0) kill(asker, done ? SIGUSR1 : SIGUSR2);
+void AnswerReload(pid_t asker, ReloadAnswer answer) {
+  if (asker > 0) sigqueue(asker, SIGUSR1, {.sival_int = static_cast<int>(answer)});
 }
 
 }  // namespace collision::server

@@ -57,6 +57,7 @@ class SignalWatcher {
 /// How a request to reload has ended.
 enum class ReloadAnswer {
   kDone,
+  kDoneInPart,  ///< What differs else takes a new start of the service.
   kRefused,
   kNoProcess,  ///< It is not there, or belongs to another user.
   kNoService,  ///< It does not wait for signals as a SignalWatcher does; it was sent none.
@@ -64,10 +65,11 @@ enum class ReloadAnswer {
 };
 
 /// Sends SIGHUP to a service, another process, and waits for its answer; again each second.
-/// Requires that nothing else in this process waits for SIGUSR1 and SIGUSR2, which are the answers.
+/// Requires that nothing else in this process waits for SIGUSR1, which brings the answer.
 ReloadAnswer AskToReload(pid_t service, std::chrono::nanoseconds patience);
 
-/// Answers AskToReload(). Does nothing for an asker of 0, or one that has gone.
-void AnswerReload(pid_t asker, bool done);
+/// Answers AskToReload(): done, in part or refused. Does nothing for an asker of 0, or one that has
+/// gone.
+void AnswerReload(pid_t asker, ReloadAnswer answer);
 
 }  // namespace collision::server

@@ -17,7 +17,8 @@ namespace {
 
 void WriteForAll(std::uint32_t domain, const std::string& credentials) {
   const Qos secured = MakeQos(), everywhere = MakeQos(), reliable = MakeQos();
-  Credentials(credentials).Apply(secured.get());
+  const Credentials shown(credentials, domain);
+  shown.Apply(secured.get());
   const Entity participant(
       Check(dds_create_participant(domain, secured.get(), nullptr), "participant"));
   dds_qset_partition1(everywhere.get(), "*");

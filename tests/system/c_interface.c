@@ -32,6 +32,8 @@ static int failures = 0;
 
 static const char* world_name = NULL;
 static uint32_t domain = 0;
+/* Folders, in a secured world. */
+static const char *credentials = NULL, *others_credentials = NULL;
 
 /* ---- Values ---- */
 
@@ -60,6 +62,7 @@ static collision_world* connected(const char* simulator) {
   options.world = world_name;
   options.domain = domain;
   options.simulator = simulator;
+  options.credentials = credentials;
   options.tell_notices = 1;
   REQUIRE(collision_world_connect(&options, &world) == COLLISION_OK);
   REQUIRE(collision_world_wait_for_service(world, PATIENCE) == COLLISION_OK);
@@ -73,6 +76,7 @@ static collision_monitor* opened(void) {
   options.world = world_name;
   options.domain = domain;
   options.simulators = 1;
+  options.credentials = credentials;
   REQUIRE(collision_monitor_open(&options, &monitor) == COLLISION_OK);
   return monitor;
 }
@@ -556,14 +560,55 @@ static void part_leaves_agents(void) {
   collision_world_close(world);
 }
 
+/* ---- A secured world ---- */
+
+static void part_secured(void) {
+  collision_monitor_options others;
+  collision_world_options options;
+  collision_world* world = connected("ada-sim");
+  collision_monitor* monitor = opened();
+  collision_agent_description description = ball("ada", 1);
+  collision_state state = moving(0, 0, 0);
+  collision_agent agent;
+  const collision_news* news;
+  int i, seen = 0;
+  REQUIRE(collision_world_add_agent(world, &description, &state, &agent) == COLLISION_OK);
+  for (i = 0; i < 2400 && !seen; ++i) {
+    state.stamp_ns = i * (SECOND / 10);
+    REQUIRE(collision_world_set_states(world, &agent, &state, 1) == COLLISION_OK);
+    REQUIRE(collision_world_advance_to(world, state.stamp_ns, PATIENCE) == COLLISION_OK);
+    REQUIRE(collision_monitor_poll(monitor, SECOND / 10) == COLLISION_OK);
+    while ((news = collision_monitor_next(monitor)) != NULL)
+      seen |= news->kind == COLLISION_NEWS_STATE;
+  }
+  CHECK(seen);
+  collision_monitor_close(monitor);
+  collision_monitor_options_init(&others, sizeof others);
+  others.world = world_name;
+  others.domain = domain;
+  others.credentials = others_credentials;
+  CHECK(collision_monitor_open(&others, &monitor) < 0 && says("one process has one"));
+  collision_world_close(world);
+  collision_world_options_init(&options, sizeof options);
+  options.simulator = "ada-sim";
+  options.credentials = "/nowhere";
+  CHECK(collision_world_connect(&options, &world) < 0 && says("/nowhere"));
+}
+
+/* PART [CREDENTIALS CREDENTIALS_OF_ANOTHER] WORLD DOMAIN */
 int main(int argc, char** argv) {
-  if (argc != 4) return 2;
-  world_name = argv[2];
-  domain = (uint32_t)strtoul(argv[3], NULL, 10);
+  if (argc != 4 && argc != 6) return 2;
+  if (argc == 6) {
+    credentials = argv[2];
+    others_credentials = argv[3];
+  }
+  world_name = argv[argc - 2];
+  domain = (uint32_t)strtoul(argv[argc - 1], NULL, 10);
   if (strcmp(argv[1], "alone") == 0) part_alone();
   if (strcmp(argv[1], "meeting") == 0) part_meeting();
   if (strcmp(argv[1], "trouble") == 0) part_trouble();
   if (strcmp(argv[1], "real-time") == 0) part_real_time();
   if (strcmp(argv[1], "leaves-agents") == 0) part_leaves_agents();
+  if (strcmp(argv[1], "secured") == 0) part_secured();
   return failures > 0 ? 1 : 0;
 }

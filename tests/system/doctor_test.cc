@@ -60,6 +60,30 @@ TEST_F(DoctorTest, NamesWhereAServiceIsToBeFound) {
   EXPECT_TRUE(Contains(named.out, "-> collisionctl --world another doctor")) << named.out;
 }
 
+// Goal:   a network profile with which DDS does not start is named, with what is wrong in it.
+TEST_F(DoctorTest, NamesANetworkProfileThatIsWrong) {
+  const TestWorld world(132);
+  const auto with = [&](const std::string& profile) {
+    return RunToEnd({Program("collisionctl"), "--domain", "132", "doctor"},
+                    {"CYCLONEDDS_URI=" + profile});
+  };
+  const Outcome missing = with("file:///nowhere.xml");
+  EXPECT_EQ(missing.status, 69) << missing.err;
+  EXPECT_TRUE(Contains(missing.out,
+                       "1. DDS does not start on domain 132, network profile "
+                       "file:///nowhere.xml: can't open configuration file"))
+      << missing.out;
+  EXPECT_TRUE(Contains(missing.out, "   -> let CYCLONEDDS_URI name a file that is there"));
+  const Outcome card = with(
+      "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"none0\"/></Interfaces>"
+      "</General></Domain></CycloneDDS>");
+  EXPECT_TRUE(Contains(card.out, "none0: does not match an available interface")) << card.out;
+  EXPECT_TRUE(Contains(card.out, "-> name an interface of this machine")) << card.out;
+  EXPECT_TRUE(Contains(card.out, "lo 127.0.0.1")) << card.out;
+  const Outcome word = with("<CycloneDDS><Domain><Foo>1</Foo></Domain></CycloneDDS>");
+  EXPECT_TRUE(Contains(word.out, "Foo: unknown element")) << word.out;
+}
+
 TEST_F(DoctorTest, NamesServicesThatDoNotBelongThere) {
   const TestWorld world(123, kRealTime);
   {

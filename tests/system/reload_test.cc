@@ -59,6 +59,7 @@ TEST_F(ReloadTest, TakesWhatCanChangeAndOpensTheLogAnew) {
   Write("debug", "agents_max: 7\n");
   const Outcome done = Reload();
   EXPECT_EQ(done.status, 0) << done.err;
+  EXPECT_TRUE(Contains(done.out, "fields that differ take a new start; its log names them"));
   EXPECT_TRUE(Contains(Log(), "reloaded: log_level: \"info\" -> \"debug\"")) << Log();
   EXPECT_TRUE(Contains(Log(), "takes a new start to change: agents_max")) << Log();
 
@@ -76,6 +77,9 @@ TEST_F(ReloadTest, TakesWhatCanChangeAndOpensTheLogAnew) {
   EXPECT_TRUE(Contains(Log(), "not a regular file: it cannot be read again")) << Log();
   std::filesystem::remove(folder_.Path("settings"));
   EXPECT_EQ(Reload().status, 78);
+
+  Write("debug");
+  EXPECT_EQ(Reload().out, "") << "all that differs has been taken";
 
   // As logrotate does it.
   Write("info");

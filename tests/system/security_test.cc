@@ -75,6 +75,26 @@ TEST(Security, TheDoctorNamesASecuredWorld) {
   EXPECT_TRUE(Contains(with.out, "WELL: the service is heard")) << with.out;
 }
 
+// Goal:   who asks with credentials that do not fit hears that it is these.
+TEST(Security, TheDoctorNamesCredentialsThatDoNotFit) {
+  SecuredWorld secured(133);
+  const TestWorld open(134);
+  const auto daemon = open.StartDaemon();
+  const auto ask_with_foreign = [&](const TestWorld& world) {
+    const auto foreign = client::Authority::Make(world.folder().Path("foreign"),
+                                                 {world.name(), world.domain()}, SecondsNow());
+    const client::Period day{SecondsNow() - 60, SecondsNow() + 86400};
+    return world
+        .Monitor({"--credentials", foreign.Issue({DdsRole::kMonitor, "desk"}, day), "--timeout",
+                  "5", "doctor"})
+        .out;
+  };
+  const std::string of_another = ask_with_foreign(secured.world());
+  EXPECT_TRUE(Contains(of_another, "a secured world of another authority")) << of_another;
+  const std::string needless = ask_with_foreign(open);
+  EXPECT_TRUE(Contains(needless, "it is served without")) << needless;
+}
+
 /// Which of two programs of different authorities finds out depends on their GUIDs. The other one's
 /// handshake ends without an answer, which it says 100 s later.
 bool ComesToSay(const std::vector<Process*>& either, const std::string& text) {
@@ -206,6 +226,20 @@ TEST(Security, GrantsForgedForAllWorldsAreRefusedBySimulators) {
   EXPECT_EQ(left->WaitForExit(), 0) << left->err();
   EXPECT_EQ(right->WaitForExit(), 0) << right->err();
   EXPECT_TRUE(Contains(left->err(), "Access control does not allow remote writer")) << left->err();
+}
+
+// Goal:   a program in C hands its credentials over, and one that simulates and monitors does both
+//         with one folder, since Cyclone DDS would judge a second by the permissions of the first.
+TEST(Security, OneProcessHasOneFolderOfCredentials) {
+  SecuredWorld secured(131, "simulators_awaited: 1");
+  const std::string ca = secured.world().folder().Path("lab");
+  EXPECT_EQ(RunToEnd({Program("collisionctl"), "make-certificates", ca, "--simulator", "ada-sim",
+                      "--monitoring", "--monitor", "desk"})
+                .status,
+            0);
+  const auto program = secured.world().StartHelper(
+      "c-interface", {"secured", ca + "/simulator-ada-sim", ca + "/monitor-desk"});
+  EXPECT_EQ(program->WaitForExit(), 0) << program->err() << secured.daemon().err();
 }
 
 TEST(Security, CredentialsThatEndWhileTheirProgramRunsAreTold) {

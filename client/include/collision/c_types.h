@@ -77,7 +77,7 @@ typedef struct collision_world_options {
   size_t levels_count;
   int64_t (*wall_clock)(void* user); /**< NULL: the system's. */
   void* wall_clock_user;
-  const char* credentials; /**< NULL: COLLISION_CREDENTIALS, or none. */
+  const char* credentials; /**< Folder; NULL: COLLISION_CREDENTIALS, or none. One a process. */
 } collision_world_options;
 
 /** What an agent declares about itself. */

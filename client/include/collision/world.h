@@ -30,7 +30,8 @@ struct WorldOptions {
       {};  ///< Unique in the world, 1-64 of [A-Za-z0-9_-]; names your agents' owner.
   std::uint32_t domain = DefaultDomain();  ///< DDS domain, 0-230.
   /// Folder of this simulator's credentials in a secured world, as collisionctl make-certificates
-  /// makes it; empty: it has none.
+  /// makes it; empty: it has none. All worlds and monitors of a process in one DDS domain have the
+  /// same one (docker/SECURITY.md).
   std::string credentials = DefaultCredentials();
   /// Label of the frame in which positions are told, at most 64 bytes; empty: not stated. A service
   /// whose world states another one is refused, and refuses this simulator.

@@ -165,10 +165,12 @@ std::string OwnDdsAddress(std::uint32_t domain) {
 }
 
 DdsLookout::DdsLookout(std::uint32_t domain, const std::string& credentials,
-                       const std::string& world)
-    : is_secured_(!credentials.empty()) {
+                       const std::string& world) {
   const dds::Qos qos = dds::MakeQos();
-  if (!credentials.empty()) dds::Credentials(credentials).Apply(qos.get());
+  if (!credentials.empty()) {
+    credentials_ = std::make_unique<dds::Credentials>(credentials, domain);
+    credentials_->Apply(qos.get());
+  }
   participant_ = dds::Check(dds_create_participant(domain, qos.get(), nullptr),
                             "DDS participant in domain " + std::to_string(domain));
   const auto read = [this](dds_entity_t topic) {
@@ -177,7 +179,7 @@ DdsLookout::DdsLookout(std::uint32_t domain, const std::string& credentials,
   programs_ = read(DDS_BUILTIN_TOPIC_DCPSPARTICIPANT);
   writers_ = read(DDS_BUILTIN_TOPIC_DCPSPUBLICATION);
   readers_ = read(DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION);
-  if (is_secured_) ShowReader(world);
+  if (credentials_) ShowReader(world);
 }
 
 void DdsLookout::ShowReader(const std::string& world) const {
@@ -192,7 +194,7 @@ void DdsLookout::ShowReader(const std::string& world) const {
 }
 
 DdsLookout::DdsLookout(DdsLookout&& other) noexcept
-    : is_secured_(other.is_secured_),
+    : credentials_(std::move(other.credentials_)),
       participant_(std::exchange(other.participant_, 0)),
       programs_(other.programs_),
       writers_(other.writers_),
@@ -220,11 +222,12 @@ DdsNeighbours DdsLookout::Look() const {
         writes ? writers_ : readers_,
         [&](const dds_builtintopic_endpoint_t& one, dds_instance_handle_t) {
           if (!std::string_view(one.topic_name).starts_with(kTopicsBegin)) return;
-          seen.peers.push_back({.program = one.participant_instance_handle,
-                                .writes = writes,
-                                .topic = one.topic_name,
-                                .partitions = PartitionsOf(one.qos),
-                                .misfit = Misfit(participant_, is_secured_, one, writes)});
+          seen.peers.push_back(
+              {.program = one.participant_instance_handle,
+               .writes = writes,
+               .topic = one.topic_name,
+               .partitions = PartitionsOf(one.qos),
+               .misfit = Misfit(participant_, credentials_ != nullptr, one, writes)});
         });
   }
   return seen;

@@ -3,10 +3,15 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace collision {
+
+namespace dds {
+class Credentials;
+}
 
 /// A program that takes part in a domain, as it describes itself. Empty: it does not say, as those
 /// of other vendors.
@@ -55,7 +60,7 @@ class DdsLookout {
   /// The services of a secured world take a program without readers and writers for a stranger.
   void ShowReader(const std::string& world) const;
 
-  bool is_secured_ = false;
+  std::unique_ptr<const dds::Credentials> credentials_;  ///< Null: it is not secured.
   int participant_ = 0;
   int programs_ = 0, writers_ = 0, readers_ = 0;
 };

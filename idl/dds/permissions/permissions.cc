@@ -65,10 +65,12 @@ std::vector<Rule> RulesOf(const Grantee& grantee) {
               reads_simulators,
               reads_service,
               {false, operators, TopicsOf(Source::kOperators)}};
-    case DdsRole::kSimulator:
-      return {{true, world + "." + grantee.name, TopicsOf(Source::kSimulators)},
-              {false, world, TopicsOfServiceForSimulators()},
-              {false, watchers, TopicsOf(Source::kWatchers)}};
+    case DdsRole::kSimulator: {
+      const Rule writes{true, world + "." + grantee.name, TopicsOf(Source::kSimulators)},
+          is_watched{false, watchers, TopicsOf(Source::kWatchers)};
+      if (grantee.monitors) return {writes, is_watched, reads_service, reads_simulators, watches};
+      return {writes, is_watched, {false, world, TopicsOfServiceForSimulators()}};
+    }
     case DdsRole::kMonitor:
       return {reads_service, reads_simulators, watches};
     case DdsRole::kOperator:

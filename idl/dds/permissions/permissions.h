@@ -15,6 +15,7 @@ struct Grantee {
   std::uint32_t domain = 0;
   DdsRole role = DdsRole::kMonitor;  ///< Not kWatcher: monitors and operators may watch.
   std::string name;                  ///< kSimulator: that of its partition.
+  bool monitors = false;             ///< kSimulator: it does what a monitor does as well.
   std::string subject;               ///< Of its certificate, as RFC 2253 writes it.
   std::int64_t not_before = 0;       ///< [s since 1970]
   std::int64_t not_after = 0;        ///< Likewise.

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -67,6 +69,23 @@ std::string TextOf(const std::string& path) {
   return text;
 }
 
+/// The folder that this process shows in a domain, for as long as somebody holds it.
+std::shared_ptr<const std::string> Hold(std::uint32_t domain, const std::string& folder) {
+  static std::mutex mutex;
+  static std::map<std::uint32_t, std::weak_ptr<const std::string>> folders;
+  const std::lock_guard lock(mutex);
+  std::weak_ptr<const std::string>& held = folders[domain];
+  auto holder = held.lock();
+  if (holder && *holder != folder) {
+    throw Refused(folder + ": this program takes part in DDS domain " + std::to_string(domain) +
+                  " with " + *holder +
+                  " already, and one process has one: for a simulator that also monitors, make "
+                  "credentials with collisionctl make-certificates --simulator NAME --monitoring");
+  }
+  if (!holder) held = holder = std::make_shared<const std::string>(folder);
+  return holder;
+}
+
 std::int64_t SecondsSince1970() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::seconds>(now).count();
@@ -74,9 +93,9 @@ std::int64_t SecondsSince1970() {
 
 }  // namespace
 
-Credentials::Credentials(const std::string& folder) {
+Credentials::Credentials(const std::string& folder, std::uint32_t domain) {
   std::error_code error;
-  folder_ = fs::absolute(folder, error).string();
+  folder_ = fs::absolute(folder, error).lexically_normal().string();
   if (!fs::is_directory(folder_, error)) throw Refused(folder_ + ": there is no such folder");
   for (const std::string_view name : kFiles) {
     const std::string path = folder_ + "/" + std::string(name);
@@ -94,6 +113,7 @@ Credentials::Credentials(const std::string& folder) {
     first_to_end_ = path;
     end_ = *end;
   }
+  held_ = Hold(domain, folder_);
 }
 
 void Credentials::Apply(dds_qos_t* participant) const {

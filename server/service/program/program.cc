@@ -285,6 +285,10 @@ int ReloadOther(std::int32_t service) {
   switch (AskToReload(service, kReloadPatience)) {
     case ReloadAnswer::kDone:
       return kExitOk;
+    case ReloadAnswer::kDoneInPart:
+      std::cout << "collisiond: " << process
+                << ": fields that differ take a new start; its log names them\n";
+      return kExitOk;
     case ReloadAnswer::kRefused:
       return Fail(kExitConfiguration,
                   process + " keeps its configuration, for the reason that its log says");

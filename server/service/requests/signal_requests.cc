@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "server/process/logging.h"
-#include "server/process/signals.h"
 
 namespace collision::server {
 namespace {
@@ -40,34 +39,33 @@ void SignalRequests::Fulfil() {
   }
   if (!askers.empty()) {
     notifier_->Reloading();
-    const bool done = Reload();
+    const ReloadAnswer answer = Reload();
     notifier_->Ready();
-    for (const pid_t asker : askers) AnswerReload(asker, done);
+    for (const pid_t asker : askers) AnswerReload(asker, answer);
   }
   if (!dump) return;
   for (const std::string& line : state_lines_()) spdlog::info("state: {}", line);
 }
 
-bool SignalRequests::Reload() {
+ReloadAnswer SignalRequests::Reload() {
   const Reloaded reloaded = reloader_.Reload();
   for (const std::string& error : reloaded.errors) spdlog::error("not reloaded: {}", error);
   if (!reloaded.accepted) {
     spdlog::error("the configuration stays as it was");
-    return false;
+    return ReloadAnswer::kRefused;
   }
   const v1::Config& config = reloader_.in_force();
   try {
     StartLogging(LogOptionsOf(config));
   } catch (const std::exception& error) {
     spdlog::error("not reloaded: log_file: {}; the log stays where it was", error.what());
-    return false;
+    return ReloadAnswer::kRefused;
   }
   const std::string changed = Listed(reloaded.changed);
   spdlog::info("reloaded: {}", changed.empty() ? "nothing has changed" : changed);
-  if (!reloaded.unchanged.empty()) {
-    spdlog::warn("takes a new start to change: {}", Listed(reloaded.unchanged));
-  }
-  return true;
+  if (reloaded.unchanged.empty()) return ReloadAnswer::kDone;
+  spdlog::warn("takes a new start to change: {}", Listed(reloaded.unchanged));
+  return ReloadAnswer::kDoneInPart;
 }
 
 }  // namespace collision::server

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "server/process/service_notify.h"
+#include "server/process/signals.h"
 #include "server/service/requests/reload.h"
 
 namespace collision::server {
@@ -31,7 +32,7 @@ class SignalRequests {
   void Fulfil();
 
  private:
-  bool Reload();
+  ReloadAnswer Reload();
 
   Reloader reloader_;
   const std::function<std::vector<std::string>()> state_lines_;

@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "tests/bench/service/parts.h"
+#include "tests/bench/service/process.h"
 
 namespace collision::bench {
 
-/// Credentials of both ends; empty: the world is not secured.
-struct Access {
-  std::string service;    ///< A folder.
-  std::string simulator;  ///< Likewise, of ServiceDriver::kSimulator.
+/// Of the service, and of the simulator beside it.
+struct CellFolders {
+  ServiceFolders service = {};
+  std::string simulator_credentials = {};  ///< Of ServiceDriver::kSimulator; empty: none.
 };
 
 struct Cell {
@@ -26,7 +27,7 @@ struct Cell {
 /// nullopt: no answer in time. `world`: of this cell alone.
 std::optional<Cell> MeasureCell(const ServiceSettings& settings, const std::string& contestant,
                                 const std::string& world, std::uint32_t agents,
-                                const Access& access = {});
+                                const CellFolders& folders = {});
 
 double UpdatesPerSecond(const Cell& cell, std::uint32_t agents);
 

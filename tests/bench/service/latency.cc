@@ -8,7 +8,6 @@
 #include "tests/bench/service/cell.h"
 #include "tests/bench/service/driver.h"
 #include "tests/bench/service/parts.h"
-#include "tests/bench/service/process.h"
 
 namespace collision::bench {
 namespace {
@@ -26,9 +25,9 @@ double Budget(const ServiceSettings& settings) { return settings.quick ? 0.7 : 1
 
 std::optional<Cell> MeasureCell(const ServiceSettings& settings, const std::string& contestant,
                                 const std::string& world, std::uint32_t agents,
-                                const Access& access) {
-  ServiceProcess service(contestant, world, settings.domain, access.service);
-  ServiceDriver driver(world, settings.domain, agents, access.simulator);
+                                const CellFolders& folders) {
+  ServiceProcess service(contestant, world, settings.domain, folders.service);
+  ServiceDriver driver(world, settings.domain, agents, folders.simulator_credentials);
   if (!driver.Join(kJoinSeconds)) return std::nullopt;
   Cell cell;
   const Stopwatch latency;

@@ -35,8 +35,9 @@ void LatencyPart(const ServiceSettings& settings, ServiceReport* report);
 /// The protections of a secured world, as collisionctl make-certificates names them.
 inline constexpr const char* kProtections[] = {"sign", "sign-for-each-reader", "encrypt"};
 
-/// The same in a secured world, beside one that is not.
-void SecurityPart(const ServiceSettings& settings, ServiceReport* report);
+/// The same with an option of the service, beside the service without: a secured world, by each
+/// protection, and the flight recorder.
+void OptionsPart(const ServiceSettings& settings, ServiceReport* report);
 
 /// What a step costs that also asks for the earliest possible intersection, in a lattice of agents
 /// at rest and in a jittered one.

@@ -16,6 +16,7 @@
 #include "server/bus/system_clock.h"
 #include "server/config/config.h"
 #include "server/service/daemon.h"
+#include "server/service/program/kept_in_state_dir.h"
 #include "tests/bench/service/crowd.h"
 
 namespace collision::bench {
@@ -26,16 +27,19 @@ using namespace std::chrono_literals;
 constexpr std::uint32_t kAgentsMax = 20000;
 constexpr std::size_t kBatchMax = 65536;
 
-void ServeOurs(const std::string& world, std::uint32_t domain, const std::string& credentials) {
+void ServeOurs(const std::string& world, std::uint32_t domain, const ServiceFolders& folders) {
   v1::Config config;
   config.set_world(world);
   config.set_domain(domain);
   config.mutable_clock()->set_kind(v1::Clock::REAL_TIME);
   config.set_agents_max(kAgentsMax);
+  config.set_state_dir(folders.state);
   config = server::CompleteConfig(config);
-  server::DdsBus bus(world, domain, {.credentials = credentials});
+  const server::KeptInStateDir kept = server::OpenKept(config, {});
+  server::DdsBus bus(world, domain, {.credentials = folders.credentials});
   server::SystemClock clock;
-  server::Daemon daemon(config, bus, clock);
+  server::Daemon daemon(config, bus, clock,
+                        {.flight = kept.flight.get(), .contacts = kept.contacts.get()});
   while (daemon.Step()) {
   }
 }
@@ -103,10 +107,10 @@ std::int64_t WallNs() {
 }
 
 int Serve(const std::string& contestant, const std::string& world, std::uint32_t domain,
-          const std::string& credentials) {
+          const ServiceFolders& folders) {
   spdlog::set_level(spdlog::level::off);
   try {
-    if (contestant == "ours") ServeOurs(world, domain, credentials);
+    if (contestant == "ours") ServeOurs(world, domain, folders);
     if (contestant == "network") ServeAtOnce(world, domain);
     if (contestant == kCrowd) FlyCrowd(world, domain);
   } catch (const std::exception& error) {
@@ -117,7 +121,7 @@ int Serve(const std::string& contestant, const std::string& world, std::uint32_t
 }
 
 ServiceProcess::ServiceProcess(const std::string& contestant, const std::string& world,
-                               std::uint32_t domain, const std::string& credentials) {
+                               std::uint32_t domain, const ServiceFolders& folders) {
   const std::string number = std::to_string(domain);
   const pid_t parent = getpid();
   process_ = fork();
@@ -126,7 +130,8 @@ ServiceProcess::ServiceProcess(const std::string& contestant, const std::string&
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
   execl("/proc/self/exe", "service-bench", "--serve", contestant.c_str(), "--world", world.c_str(),
-        "--domain", number.c_str(), "--credentials", credentials.c_str(), nullptr);
+        "--domain", number.c_str(), "--credentials", folders.credentials.c_str(), "--state",
+        folders.state.c_str(), nullptr);
   _exit(1);
 }
 

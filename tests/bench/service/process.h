@@ -15,16 +15,22 @@ inline constexpr const char* kContestants[] = {"network", "ours"};
 /// The system's clock, with which messages are stamped [ns since 1970].
 std::int64_t WallNs();
 
+/// Folders that "ours" uses; empty: none.
+struct ServiceFolders {
+  std::string credentials = {};
+  std::string state = {};  ///< For the flight recorder and the journal of contacts.
+};
+
 /// The child's side: serves until it is ended. Returns the exit code.
 int Serve(const std::string& contestant, const std::string& world, std::uint32_t domain,
-          const std::string& credentials);
+          const ServiceFolders& folders);
 
 /// This program again, as a service; ended with the object, and with this process.
 class ServiceProcess {
  public:
-  /// Throws std::runtime_error if it cannot be started. `credentials`: a folder; empty: none.
+  /// Throws std::runtime_error if it cannot be started.
   ServiceProcess(const std::string& contestant, const std::string& world, std::uint32_t domain,
-                 const std::string& credentials = "");
+                 const ServiceFolders& folders = {});
   ~ServiceProcess();
   ServiceProcess(const ServiceProcess&) = delete;
   ServiceProcess& operator=(const ServiceProcess&) = delete;

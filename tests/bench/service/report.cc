@@ -18,6 +18,7 @@ std::vector<std::string> FigureNames() {
     names.push_back("secured_event_p50_ratio_" + protection);
     names.push_back("secured_updates_ratio_" + protection);
   }
+  names.insert(names.end(), {"recorder_event_p50_ratio", "recorder_updates_ratio"});
   for (const char* agents : {"1000", "10000"}) {
     names.push_back(std::string("lattice_step_ratio_") + agents);
   }

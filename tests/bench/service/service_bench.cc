@@ -3,9 +3,9 @@
 // - latency: from writing a state that jumps to a place half a second before a meeting, until its
 //   event arrives; 100, 1000 and 10,000 agents, p50 and p99. Then updates per second: all agents
 //   send their states in chunks of 64, again as soon as all are acknowledged.
-// - security: the same latency and throughput of 1000 agents, of the service in a secured world and
-//   in one that is not, seven pairs one after the other; medians of their ratios, for each
-//   protection.
+// - security, recorder: the same latency and throughput of 1000 agents, of the service with the
+//   option and without, seven pairs one after the other; medians of their ratios. The options are
+//   each protection of a secured world, and the flight recorder with the journal of contacts.
 // - crowd: the same latency, of a simulator of 100 agents, alone and beside another one with 363
 //   agents of one mesh of 3,160 triangles, which all overlap and send 60 states a second each. The
 //   ratio of the medians is what a greedy simulator costs the others.
@@ -34,20 +34,22 @@ int main(int count, char** arguments) {
   CLI::App app("Measures the service beside a program that answers at once, on this machine only.",
                "service-bench");
   ServiceSettings settings;
-  std::string contestant, world, credentials;
+  std::string contestant, world;
+  ServiceFolders folders;
   settings.AddTo(&app, "fewer agents and repetitions: less than 20 s",
                  "only cells whose name PART/WHAT contains this");
   app.add_option("--domain", settings.domain, "DDS domain")->check(CLI::Range(0, 230));
   app.add_option("--serve", contestant, "")->group("");  // the child's side
   app.add_option("--world", world, "")->group("");
-  app.add_option("--credentials", credentials, "")->group("");
+  app.add_option("--credentials", folders.credentials, "")->group("");
+  app.add_option("--state", folders.state, "")->group("");
   CLI11_PARSE(app, count, arguments);
-  if (!contestant.empty()) return Serve(contestant, world, settings.domain, credentials);
+  if (!contestant.empty()) return Serve(contestant, world, settings.domain, folders);
   ServiceReport report;
   AtRestPart(settings, &report);
   MessagesPart(settings, &report);
   LatencyPart(settings, &report);
-  SecurityPart(settings, &report);
+  OptionsPart(settings, &report);
   CrowdPart(settings, &report);
   return Finish(report, settings.json);
 }

@@ -81,18 +81,18 @@ TEST(Signals, OthersAreRequests) {
 // Method: a child process asks, and ends with the answer; one asks a process that is not there.
 TEST(Signals, AReloadIsAnswered) {
   PrepareSignals();
-  for (const bool done : {true, false}) {
+  for (const ReloadAnswer answer :
+       {ReloadAnswer::kDone, ReloadAnswer::kDoneInPart, ReloadAnswer::kRefused}) {
     SignalWatcher watcher({.stop = [] {},
                            .patience = kEver,
                            .give_up = [] { FAIL(); },
-                           .reload = [done](pid_t asker) { AnswerReload(asker, done); }});
+                           .reload = [answer](pid_t asker) { AnswerReload(asker, answer); }});
     const pid_t service = getpid();
     const pid_t child = fork();
     if (child == 0) _exit(static_cast<int>(AskToReload(service, std::chrono::minutes(4))));
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, 0), child);
     ASSERT_TRUE(WIFEXITED(status));
-    const ReloadAnswer answer = done ? ReloadAnswer::kDone : ReloadAnswer::kRefused;
     EXPECT_EQ(WEXITSTATUS(status), static_cast<int>(answer));
     EXPECT_EQ(AskToReload(child, kEver), ReloadAnswer::kNoProcess);
   }
@@ -104,7 +104,7 @@ TEST(Signals, EachOfSeveralAskersIsAnswered) {
   SignalWatcher watcher({.stop = [] {},
                          .patience = kEver,
                          .give_up = [] { FAIL(); },
-                         .reload = [](pid_t asker) { AnswerReload(asker, true); }});
+                         .reload = [](pid_t asker) { AnswerReload(asker, ReloadAnswer::kDone); }});
   const pid_t service = getpid();
   std::vector<pid_t> children;
   for (int i = 0; i < 8; ++i) {

@@ -204,6 +204,7 @@ std::string Authority::Issue(const Bearer& bearer, const Period& period) const {
                              .domain = world_.domain,
                              .role = bearer.role,
                              .name = bearer.name,
+                             .monitors = bearer.monitors,
                              .subject = client::TextOf(subject),
                              .not_before = shorter.begin,
                              .not_after = shorter.end};

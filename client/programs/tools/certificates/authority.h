@@ -31,6 +31,7 @@ struct SecuredWorld {
 struct Bearer {
   DdsRole role = DdsRole::kMonitor;  ///< Not kWatcher.
   std::string name;
+  bool monitors = false;  ///< kSimulator: its program is a monitor, too.
 };
 
 /// Keys and documents that all of a world trusts, in `folder`/authority:

@@ -36,7 +36,8 @@ struct UsageError : std::runtime_error {
 std::vector<Bearer> BearersOf(const CertificateOptions& options) {
   std::vector<Bearer> bearers;
   if (options.service) bearers.push_back({DdsRole::kService, "service"});
-  for (const auto& name : options.simulators) bearers.push_back({DdsRole::kSimulator, name});
+  for (const auto& name : options.simulators)
+    bearers.push_back({DdsRole::kSimulator, name, options.monitoring});
   for (const auto& name : options.monitors) bearers.push_back({DdsRole::kMonitor, name});
   for (const auto& name : options.operators) bearers.push_back({DdsRole::kOperator, name});
   return bearers;
@@ -54,9 +55,10 @@ Authority AuthorityFor(const CertificateOptions& options, const CertificatePlace
   if (!there) {
     const SecuredWorld world{place.world.value_or("default"), place.domain.value_or(0),
                              ProtectionOf(options.protection).value_or(dds::Protection::kSign)};
+    const Authority made = Authority::Make(options.folder, world, Now());
     std::cout << "world \"" << world.world << "\", DDS domain " << world.domain
               << ": new authority in " << options.folder << "/authority\n";
-    return Authority::Make(options.folder, world, Now());
+    return made;
   }
   const SecuredWorld& world = there->world();
   if (place.world.value_or(world.world) != world.world ||
@@ -139,6 +141,11 @@ CLI::App* AddCertificatesCommand(CLI::App* app, CertificateOptions* options) {
     command->add_option(name, *names, text)->check(IdentifierWord())->allow_extra_args(false);
   };
   add("--simulator", &options->simulators, "For the simulator of this name; may be repeated");
+  command
+      ->add_flag("--monitoring", options->monitoring,
+                 "These simulators may also monitor, in the same program: a process has one set of "
+                 "credentials")
+      ->needs("--simulator");
   add("--monitor", &options->monitors, "For someone who looks; may be repeated");
   add("--operator", &options->operators, "For someone who looks and commands; may be repeated");
   command->add_option("--days", options->days, "How long they hold, 1 to 3650")

@@ -13,6 +13,7 @@ struct CertificateOptions {
   std::string folder;
   bool service = false;
   std::vector<std::string> simulators, monitors, operators;
+  bool monitoring = false;  ///< The simulators.
   std::uint32_t days = 365;
   std::string protection = {};  ///< Empty: not said.
 };

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -80,7 +81,7 @@ std::vector<std::uint32_t> LookElsewhere(const DoctorOptions& options) {
 /// the domain may listen for others. Source: DDSI-RTPS 2.3, 9.6.1.
 std::string ProfileWith(const std::string& host, std::uint32_t domain) {
   constexpr std::uint32_t kParticipants = 33;
-  const std::uint32_t base = 7400 + 250 * domain;
+  const std::uint32_t base = FirstPortOf(domain);
   std::string peers = "<Peer Address=\"" + host + ":" + std::to_string(base) + "\"/>";
   for (std::uint32_t i = 0; i < kParticipants; ++i)
     peers += "<Peer Address=\"" + host + ":" + std::to_string(base + 10 + 2 * i) + "\"/>";
@@ -134,9 +135,39 @@ DoctorSeen Look(const DoctorOptions& options, WorldView* view) {
   Listen(options, view, &seen);
   if (!Serves(seen.neighbours, options.world)) {
     if (!options.host.empty()) seen.host_answers = AnswersByUnicast(options);
+    if (!options.credentials.empty()) {
+      const DdsLookout lookout(options.domain);
+      const auto serves = [&](const DdsNeighbours& all) { return Serves(all, options.world); };
+      seen.without_credentials = LookUntil(lookout, serves);
+    }
     const bool others = !WorldsServed(seen.neighbours).empty();
     if (!seen.host_answers && !others) seen.elsewhere = LookElsewhere(options);
   }
+  return seen;
+}
+
+/// The same where DDS is available; otherwise why it is not.
+DoctorSeen LookIfPossible(const DoctorOptions& options, WorldView* view) {
+  std::mutex mutex;
+  std::string said;
+  dds::SetNetworkLog([&](const std::string& line) {
+    const std::lock_guard lock(mutex);
+    if (said.find(line) == std::string::npos) said += (said.empty() ? "" : "; ") + line;
+  });
+  DoctorSeen seen;
+  try {
+    seen = Look(options, view);
+  } catch (const std::runtime_error& error) {
+    const char* profile = std::getenv("CYCLONEDDS_URI");
+    seen = {.world = options.world,
+            .domain = options.domain,
+            .failure = error.what(),
+            .profile = profile == nullptr ? "" : profile,
+            .interfaces = InterfacesThatAreUp()};
+  }
+  dds::SetNetworkLog(nullptr);
+  if (seen.failure.empty() && !said.empty()) std::cerr << "collisionctl: " << said << '\n';
+  seen.failure_lines = said;
   return seen;
 }
 
@@ -155,13 +186,7 @@ CLI::App* AddDoctorCommand(CLI::App* app, DoctorOptions* options) {
 int RunDoctor(const DoctorOptions& options) {
   std::cerr << "collisionctl: " << PlaceText(options.world, options.domain) << '\n';
   WorldView view;
-  DoctorSeen seen;
-  try {
-    seen = Look(options, &view);
-  } catch (const std::runtime_error& error) {
-    std::cerr << "collisionctl: " << error.what() << '\n';
-    return kExitUnavailable;
-  }
+  const DoctorSeen seen = LookIfPossible(options, &view);
   const std::vector<Finding> findings = Findings(seen, view);
   if (options.json) {
     std::cout << DoctorJson(findings) << std::endl;
@@ -169,6 +194,7 @@ int RunDoctor(const DoctorOptions& options) {
     std::cout << DoctorPage(seen, view, findings) << std::flush;
   }
   if (!std::cout) return kExitOutputFailed;
+  if (!seen.failure.empty()) return kExitUnavailable;
   return IsWell(findings) ? kExitOk : kExitRefused;
 }
 

@@ -14,9 +14,12 @@ namespace {
 
 constexpr std::string_view kStatusTopic = "collision/v1/service_status";
 
+/// One that does not describe itself: of another vendor, or before a handshake of DDS Security.
+constexpr char kNameless[] = "a program";
+
 std::string NameOf(const DdsNeighbours& neighbours, std::uint64_t program) {
   const auto found = neighbours.programs.find(program);
-  if (found == neighbours.programs.end() || found->second.pid.empty()) return "a program";
+  if (found == neighbours.programs.end() || found->second.pid.empty()) return kNameless;
   const DdsProgram& it = found->second;
   return it.process + " (pid " + it.pid + " on " + it.host + ")";
 }
@@ -60,6 +63,10 @@ class Doctor {
   }
 
   std::vector<Finding> Examine() {
+    if (!seen_.failure.empty()) {
+      ExamineFailure();
+      return std::move(findings_);
+    }
     if (!seen_.unreadable.empty()) {
       Add("other-revision", seen_.unreadable,
           "install programs of one version on all hosts: collisiond --version, "
@@ -87,10 +94,37 @@ class Doctor {
     return "world \"" + seen_.world + "\" on domain " + std::to_string(seen_.domain);
   }
 
+  /// DDS could not be started.
+  void ExamineFailure() {
+    const std::string profile = seen_.profile.empty() ? "" : ", network profile " + seen_.profile;
+    const std::string what = seen_.failure_lines.empty() ? seen_.failure : seen_.failure_lines;
+    const auto says = [&](const char* words) { return what.find(words) != std::string::npos; };
+    const std::string cannot = "DDS does not start on domain " + std::to_string(seen_.domain);
+    if (says("credentials")) {
+      Add("credentials", cannot + ": " + what,
+          "make credentials with collisionctl make-certificates (docker/SECURITY.md)");
+    } else if (says("open configuration file")) {
+      Add("profile", cannot + profile + ": " + what,
+          "let CYCLONEDDS_URI name a file that is there (file:///ABSOLUTE/PATH), or unset it");
+    } else if (says("match an available interface")) {
+      Add("profile", cannot + profile + ": " + what,
+          "name an interface of this machine in <NetworkInterface name=\"...\"/>: " + OwnText());
+    } else if (says("config:")) {
+      Add("profile", cannot + profile + ": " + what,
+          "correct that place of the profile; config/cyclonedds-lan.xml shows one");
+    } else {
+      Add("dds", cannot + profile + ": " + what,
+          "see whether another program has the ports from " +
+              std::to_string(FirstPortOf(seen_.domain)) +
+              " on, and whether an interface is up: " + OwnText());
+    }
+  }
+
   void FindService() {
     const std::string none = "no service is heard in " + Place();
     const std::string start = "start one: collisiond --world " + seen_.world + " --domain " +
                               std::to_string(seen_.domain);
+    if (FindByCredentials(none)) return;
     if (seen_.host_answers) {
       return Add("multicast",
                  none + ", but " + seen_.host +
@@ -111,7 +145,8 @@ class Doctor {
     }
     const bool is_alone = std::ranges::all_of(
         seen_.neighbours.programs, [](const auto& entry) { return entry.second.is_own; });
-    if (const std::string hidden = Hidden(); !hidden.empty()) {
+    const std::string hidden = seen_.has_credentials ? "" : Hidden(seen_.neighbours);
+    if (!hidden.empty()) {
       return Add("secured",
                  none + "; these programs show nothing of themselves to this one: " + hidden +
                      ": a secured world keeps it out",
@@ -121,27 +156,48 @@ class Doctor {
     if (seen_.has_credentials) {
       return Add("nobody",
                  none +
-                     ", nor any other program: nothing runs, or these credentials are of "
-                     "another authority than theirs",
+                     ", nor any other program: nothing runs or it hangs, or it is on another "
+                     "interface, or multicast does not come through",
                  start + "; its log tells of those that it refuses");
     }
     Add("nobody",
         none +
-            ", nor any other program: nothing runs, or it is on another interface, or "
+            ", nor any other program: nothing runs or it hangs, or it is on another interface, or "
             "multicast does not come through",
         start + "; if one runs on another host: collisionctl doctor --host ITS-ADDRESS");
   }
 
+  /// Whether the credentials of this program are the cause.
+  bool FindByCredentials(const std::string& none) {
+    const DdsNeighbours& others = seen_.without_credentials;
+    const std::vector<std::string> worlds = WorldsServed(others);
+    if (std::ranges::count(worlds, seen_.world) > 0) {
+      Add("open-world", none + " by a program with credentials; it is served without",
+          "leave --credentials out and unset COLLISION_CREDENTIALS, or secure the service: "
+          "collisiond --credentials FOLDER (docker/SECURITY.md)");
+      return true;
+    }
+    const std::string hidden = Hidden(others);
+    if (hidden.empty()) return false;
+    AddAuthority(none + "; these programs show nothing of themselves to this one: " + hidden);
+    return true;
+  }
+
+  void AddAuthority(const std::string& what) {
+    Add("authority", what + ": a secured world of another authority, or of another name",
+        "take credentials made by the authority of that service: collisionctl make-certificates; "
+        "its log says whom it refuses");
+  }
+
   /// Programs that show no reader or writer, and are services or do not say what they are, as those
   /// of a secured world do not.
-  std::string Hidden() const {
-    if (seen_.has_credentials) return "";
+  static std::string Hidden(const DdsNeighbours& neighbours) {
     std::vector<std::string> names;
-    for (const auto& [key, program] : seen_.neighbours.programs) {
+    for (const auto& [key, program] : neighbours.programs) {
       const bool is_shown = std::ranges::any_of(
-          seen_.neighbours.peers, [key = key](const auto& peer) { return peer.program == key; });
+          neighbours.peers, [key = key](const auto& peer) { return peer.program == key; });
       const bool may_serve = program.process.empty() || program.process.starts_with("collisiond");
-      if (may_serve && !program.is_own && !is_shown) names.push_back(NameOf(seen_.neighbours, key));
+      if (may_serve && !program.is_own && !is_shown) names.push_back(NameOf(neighbours, key));
     }
     return Joined(names);
   }
@@ -153,6 +209,9 @@ class Doctor {
     });
     if (is_misfit) return;  // told with the others
     const std::string name = NameOf(seen_.neighbours, *services_.begin());
+    if (seen_.has_credentials && name == kNameless) {
+      return AddAuthority("a service is in " + Place() + ", and does not let these credentials in");
+    }
     if (const std::string theirs = OtherNetwork(); !theirs.empty()) {
       return Add("other-network",
                  name + " is found at " + theirs + ", which is in no network of this machine: " +
@@ -162,7 +221,7 @@ class Doctor {
     }
     Add("unheard", name + " is found, but nothing that it writes comes here",
         "let UDP through the firewalls of both hosts, ports " +
-            std::to_string(7400 + 250 * seen_.domain) +
+            std::to_string(FirstPortOf(seen_.domain)) +
             " and above; with DDS Security: its log "
             "says why it refuses this program");
   }
@@ -342,10 +401,11 @@ std::string DoctorPage(const DoctorSeen& seen, const WorldView& view,
   std::string page;
   if (IsWell(findings)) {
     const v1::ServiceStatus& status = *view.status();
+    const auto others = std::ranges::count_if(
+        seen.neighbours.programs, [](const auto& entry) { return !entry.second.is_own; });
     page = "WELL: the service is heard, " + std::to_string(status.simulators_size()) +
            " simulators and " + std::to_string(status.agents()) + " agents; " +
-           std::to_string(seen.neighbours.programs.size()) +
-           " programs on the network, all readers and writers fit\n";
+           std::to_string(others) + " programs on the network, all readers and writers fit\n";
   }
   std::size_t number = 0;
   for (const Finding& finding : findings) {

@@ -15,7 +15,14 @@ struct DoctorSeen {
   std::string world;
   std::uint32_t domain = 0;
   double waited_s = 0;
+  /// Why DDS is not available; empty: it is. Otherwise nothing else has been seen.
+  std::string failure = {};
+  std::string failure_lines = {};  ///< What Cyclone DDS has said of it.
+  std::string profile = {};        ///< CYCLONEDDS_URI; empty: it is not set.
   DdsNeighbours neighbours = {};
+  /// As a program without credentials sees them; looked for only where this one has some and nobody
+  /// serves.
+  DdsNeighbours without_credentials = {};
   std::vector<Interface> interfaces = {};
   std::string own_address = {};  ///< At which this program speaks; empty: not known.
   /// Other domains in which the world is served; looked for only where nobody serves it here.

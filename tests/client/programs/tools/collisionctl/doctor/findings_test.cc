@@ -56,6 +56,7 @@ TEST_F(FindingsTest, OfAServiceThatIsHeardNothingIsFound) {
   Status();
   EXPECT_EQ(Matters(), Words{});
   EXPECT_TRUE(Page().starts_with("WELL: ")) << Page();
+  EXPECT_NE(Page().find("; 1 programs on the network"), std::string::npos) << "but this one";
 }
 
 TEST_F(FindingsTest, WhereNobodyServesTheNearestOtherIsNamed) {
@@ -76,6 +77,39 @@ TEST_F(FindingsTest, AServiceThatShowsNothingIsASecuredOne) {
   seen_.neighbours.programs[2] = {.process = "collisiond", .pid = "9", .host = "there"};
   EXPECT_EQ(Matters(), Words{"secured"});
   EXPECT_NE(Page().find("to this one: collisiond (pid 9 on there)"), std::string::npos) << Page();
+}
+
+// Goal:   where the credentials of this program are the cause, they are named and not the network.
+TEST_F(FindingsTest, CredentialsThatDoNotFitAreNamed) {
+  seen_.without_credentials.programs[2] = {.process = "collisiond", .pid = "9", .host = "there"};
+  EXPECT_EQ(Matters(), Words{"authority"});
+  EXPECT_NE(Page().find("to this one: collisiond (pid 9 on there)"), std::string::npos) << Page();
+  seen_.without_credentials.peers.push_back({.program = 2,
+                                             .writes = true,
+                                             .topic = "collision/v1/service_status",
+                                             .partitions = {"lab"}});
+  EXPECT_EQ(Matters(), Words{"open-world"});
+  // Its writers are seen; it is not, before the handshake.
+  AddService(3, "10.0.0.9");
+  seen_.neighbours.programs.erase(3);
+  EXPECT_EQ(Matters(), Words{"authority"});
+}
+
+// Goal:   where DDS does not start, the one thing that is wrong is named.
+TEST_F(FindingsTest, WhatKeepsDdsFromStartingIsNamed) {
+  seen_.failure = "DDS participant in domain 0: Error";
+  EXPECT_EQ(Matters(), Words{"dds"});
+  EXPECT_NE(Page().find(seen_.failure), std::string::npos) << Page();
+  seen_.profile = "file:///nowhere.xml";
+  seen_.failure_lines = "can't open configuration file file:///nowhere.xml";
+  EXPECT_EQ(Matters(), Words{"profile"});
+  EXPECT_NE(Page().find("unset it"), std::string::npos) << Page();
+  seen_.failure_lines = "eth9: does not match an available interface.";
+  EXPECT_NE(Page().find("lo 127.0.0.1, eth0 10.0.0.7"), std::string::npos) << Page();
+  seen_.failure_lines = "config: //CycloneDDS/Domain: Foo: unknown element";
+  EXPECT_NE(Page().find("correct that place"), std::string::npos) << Page();
+  seen_.failure_lines = "credentials: /nowhere: there is no such folder";
+  EXPECT_EQ(Matters(), Words{"credentials"});
 }
 
 TEST_F(FindingsTest, AServiceThatIsFoundAndNotHeard) {
