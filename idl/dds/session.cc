@@ -85,8 +85,8 @@ dds_entity_t CreateParticipant(std::uint32_t domain,
   const dds_entity_t made = dds_create_participant(domain, qos.get(), listener);
   if (made < 0 && credentials) {
     throw std::runtime_error("DDS domain " + std::to_string(domain) +
-                             ": Cyclone DDS refuses the credentials in " + credentials->folder() +
-                             ": it has told why on standard error");
+                             ": Cyclone DDS does not start with the credentials in " +
+                             credentials->folder() + ": it has told why on standard error");
   }
   const dds_entity_t participant = Check(made, "DDS domain " + std::to_string(domain));
   // For the whole process, and only for writers made after it: samples gather until Flush().

@@ -1,6 +1,7 @@
-// Goal:   the container image is built from what is there, and the compose file starts what the
+// Goal:   the container image is built from what is there, and the compose files start what the
 //         image holds, without an engine at hand to try it.
-// Method: read docker/Dockerfile, .dockerignore and compose.yaml against the files they speak of.
+// Method: read docker/Dockerfile, .dockerignore, compose.yaml and compose.lan.yaml against the
+//         files they speak of.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@ namespace {
 const std::filesystem::path kRoot = COLLISION_SOURCE_DIR;
 constexpr const char* kDockerfile = "docker/Dockerfile";
 constexpr const char* kCompose = "docker/compose.yaml";
+constexpr const char* kComposeLan = "docker/compose.lan.yaml";
 
 /// What the first group of `pattern` matches, everywhere in `text`.
 std::vector<std::string> All(const std::string& text, const std::string& pattern) {
@@ -44,10 +46,10 @@ std::vector<std::string> Context() {
   return All(ReadFile(".dockerignore"), "(?:^|\n)!([^/\n]+)/?(?=\n|$)");
 }
 
-/// The lines of each service of the compose file; the keys "x-..." are what services share.
-std::map<std::string, std::string> ComposeBlocks() {
+/// The lines of each service of a compose file; the keys "x-..." are what services share.
+std::map<std::string, std::string> ComposeBlocks(const char* file) {
   std::map<std::string, std::string> blocks;
-  std::istringstream lines(ReadFile(kCompose));
+  std::istringstream lines(ReadFile(file));
   std::string section, block;
   const std::regex key("( *)([a-z-]+):.*");
   for (std::string line; std::getline(lines, line);) {
@@ -111,7 +113,7 @@ TEST(Image, RunsAsANumberedUserThatIsNotRoot) {
 }
 
 TEST(Image, NamesOnlyConfigurationThatIsThere) {
-  const std::string text = ReadFile(kDockerfile) + ReadFile(kCompose);
+  const std::string text = ReadFile(kDockerfile) + ReadFile(kCompose) + ReadFile(kComposeLan);
   const auto files = All(text, "/usr/share/collisiond/([A-Za-z0-9_./-]+)");
   ASSERT_GT(files.size(), 2u);
   for (const std::string& file : files) {
@@ -135,13 +137,13 @@ TEST(Compose, StartsProgramsOfTheImage) {
     rules += ReadFile(std::string(room) + "/CMakeLists.txt");
   }
   const auto programs = All(rules, "(?:client_program|add_executable)\\(([a-z-]+) ");
-  const auto started = All(ReadFile(kCompose), "entrypoint: \\[([a-z-]+)");
-  ASSERT_GE(started.size(), 4u);
+  const auto started = All(ReadFile(kCompose) + ReadFile(kComposeLan), "entrypoint: \\[([a-z-]+)");
+  ASSERT_GE(started.size(), 5u);
   for (const std::string& program : started) EXPECT_TRUE(Contains(programs, program)) << program;
 }
 
 TEST(Compose, GivesNoServiceMorePrivilegeThanAnother) {
-  const auto blocks = ComposeBlocks();
+  const auto blocks = ComposeBlocks(kCompose);
   const std::string& shared = blocks.at("x-service");
   for (const char* line : {"read_only: true", "cap_drop: [ALL]", "no-new-privileges:true",
                            "mem_limit:", "pids_limit:", "networks: [world]"}) {
@@ -161,13 +163,50 @@ TEST(Compose, GivesNoServiceMorePrivilegeThanAnother) {
 
 // All containers look for the service where it is.
 TEST(Compose, AllServicesShareOneWorldAndDomain) {
-  const auto blocks = ComposeBlocks();
+  const auto blocks = ComposeBlocks(kCompose);
   for (const char* service : {"collisiond", "spaceship", "drones", "pilot", "monitor"}) {
     for (const char* variable : {"${COLLISION_WORLD:-default}", "${COLLISION_DOMAIN:-0}"}) {
       EXPECT_NE(blocks.at(service).find(variable), std::string::npos)
           << service << ": " << variable;
     }
   }
+}
+
+TEST(ComposeLan, RunsInTheNetworkOfItsHostWithoutPrivileges) {
+  const auto blocks = ComposeBlocks(kComposeLan);
+  for (const char* line : {"network_mode: host", "read_only: true", "cap_drop: [ALL]",
+                           "no-new-privileges:true", "pids_limit:"}) {
+    EXPECT_NE(blocks.at("x-program").find(line), std::string::npos) << line;
+  }
+  for (const char* variable : {"${COLLISION_WORLD:-default}", "${COLLISION_DOMAIN:-0}",
+                               "/usr/share/collisiond/cyclonedds-lan.xml}"}) {
+    EXPECT_NE(blocks.at("x-world").find(variable), std::string::npos) << variable;
+  }
+  for (const char* service : {"collisiond", "monitor"}) {
+    const std::string& block = blocks.at(service);
+    for (const char* line : {"<<: *program", "<<: *world", "COLLISION_CREDENTIALS: ${", ":/host:ro",
+                             "mem_limit:", "restart:"}) {
+      EXPECT_NE(block.find(line), std::string::npos) << service << ": " << line;
+    }
+    for (const char* more : {"privileged", "cap_add", "read_only", "user:", "network_mode"}) {
+      EXPECT_EQ(block.find(more), std::string::npos) << service << ": " << more;
+    }
+  }
+}
+
+// A new volume takes the owner of the image's folder, which is the user that writes to it.
+TEST(ComposeLan, KeepsStateInAFolderOfTheImagesUser) {
+  const std::string dockerfile = ReadFile(kDockerfile);
+  const auto mounts = All(ReadFile(kComposeLan), "\n *- state:(\\S+)");
+  const auto folders =
+      All(ReadFile(kComposeLan), "\n *STATE_DIRECTORY: (\\S+)/\\$\\{COLLISION_WORLD");
+  ASSERT_EQ(mounts.size(), 1u);
+  EXPECT_EQ(folders, mounts);
+  const auto users = All(dockerfile, "\nUSER (\\d+):");
+  ASSERT_EQ(users.size(), 1u);
+  EXPECT_EQ(All(dockerfile, "install -d -o " + users[0] + " \\S.* (\\S+)\n"), mounts);
+  const auto settings = All(ReadFile(kComposeLan), "COLLISION_CONFIG:-([^}]+)");
+  EXPECT_EQ(settings, All(dockerfile, "COLLISION_CONFIG=(\\S+)"));
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ TEST(Security, ExpiredAndEditedCredentialsStartNothing) {
   Edit(edited + "/permissions.p7s", ".ambitious", ".left-sim");
   const auto ambitious = secured.StartIntruder({"impostor", "as", "left-sim", "left-sim"}, edited);
   EXPECT_EQ(ambitious->WaitForExit(), 1);
-  EXPECT_TRUE(Contains(ambitious->err(), "refuses the credentials in " + edited))
+  EXPECT_TRUE(Contains(ambitious->err(), "does not start with the credentials in " + edited))
       << ambitious->err();
 
   const std::string partial = secured.CredentialsOf("simulator", "partial");

@@ -4,9 +4,11 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <latch>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -28,8 +30,11 @@ using std::chrono::milliseconds;
 constexpr milliseconds kDiscovery{1500};
 constexpr milliseconds kPause{50};
 
-/// A participant takes 6 threads and 0.2 MB: a third of all domains.
-constexpr std::uint32_t kDomainsAtOnce = 77;
+/// A third of all domains; with fewer than the other it would take minutes.
+constexpr std::uint32_t kDomainsAtOnce = 77, kDomainsAtOnceMin = 8;
+
+/// Of a participant in a domain of its own, which takes 0.2 MB besides.
+constexpr std::size_t kThreadsOfADomain = 6;
 
 std::chrono::nanoseconds Seconds(double seconds) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -53,13 +58,33 @@ DdsNeighbours LookUntil(const DdsLookout& lookout, Enough enough) {
   return seen;
 }
 
+/// How many of so many threads can be had: Cyclone DDS ends the process where one cannot, as in a
+/// container with a limit.
+std::size_t ThreadsToBeHad(std::size_t wanted) {
+  std::latch counted(1);
+  std::vector<std::jthread> threads;
+  try {
+    while (threads.size() < wanted) threads.emplace_back([&counted] { counted.wait(); });
+  } catch (const std::system_error&) {
+  }
+  counted.count_down();
+  return threads.size();
+}
+
 /// The other domains in which the world is served.
 std::vector<std::uint32_t> LookElsewhere(const DoctorOptions& options) {
   std::vector<std::uint32_t> served;
   dds::SetNetworkLog([](const std::string&) {});  // of domains that nobody asked for
-  for (std::uint32_t first = 0; first <= wire::kDomainMax; first += kDomainsAtOnce) {
+  const std::size_t threads = ThreadsToBeHad(kDomainsAtOnce * kThreadsOfADomain);
+  const auto at_once = static_cast<std::uint32_t>(threads / kThreadsOfADomain);
+  if (at_once < kDomainsAtOnceMin) {
+    std::cerr << "collisionctl: other domains are not looked into: only " << threads
+              << " threads can be started here\n";
+    return served;
+  }
+  for (std::uint32_t first = 0; first <= wire::kDomainMax; first += at_once) {
     std::vector<std::pair<std::uint32_t, DdsLookout>> lookouts;
-    const std::uint32_t end = std::min(first + kDomainsAtOnce, wire::kDomainMax + 1);
+    const std::uint32_t end = std::min(first + at_once, wire::kDomainMax + 1);
     for (std::uint32_t domain = first; domain < end; ++domain) {
       if (domain == options.domain) continue;
       try {

@@ -100,10 +100,7 @@ class Doctor {
     const std::string what = seen_.failure_lines.empty() ? seen_.failure : seen_.failure_lines;
     const auto says = [&](const char* words) { return what.find(words) != std::string::npos; };
     const std::string cannot = "DDS does not start on domain " + std::to_string(seen_.domain);
-    if (says("credentials")) {
-      Add("credentials", cannot + ": " + what,
-          "make credentials with collisionctl make-certificates (docker/SECURITY.md)");
-    } else if (says("open configuration file")) {
+    if (says("open configuration file")) {
       Add("profile", cannot + profile + ": " + what,
           "let CYCLONEDDS_URI name a file that is there (file:///ABSOLUTE/PATH), or unset it");
     } else if (says("match an available interface")) {
@@ -112,6 +109,9 @@ class Doctor {
     } else if (says("config:")) {
       Add("profile", cannot + profile + ": " + what,
           "correct that place of the profile; config/cyclonedds-lan.xml shows one");
+    } else if (says("credentials")) {
+      Add("credentials", cannot + ": " + what,
+          "make credentials with collisionctl make-certificates (docker/SECURITY.md)");
     } else {
       Add("dds", cannot + profile + ": " + what,
           "see whether another program has the ports from " +
