@@ -238,6 +238,10 @@ void Journal::AddDamage(std::size_t byte, const std::string& what) {
 
 bool Journal::Write(std::size_t record, const std::string& payload) {
   if (!error_.empty()) return false;
+  if (IsRemoved(file_)) {
+    error_ = fmt::format("{}: was removed", path_);
+    return false;
+  }
   const std::uint64_t checksum = Checksum(record, payload);
   std::string bytes = payload;
   bytes.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);

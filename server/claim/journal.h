@@ -34,8 +34,8 @@ class JournalInUse : public std::runtime_error {
 /// its name only once its head is on the medium, so an empty file is a damaged one. The next
 /// SetTerm() frees the records that were left out.
 ///
-/// **Failure.** A write that fails (a full disk, a medium gone read-only) is told by error(), and
-/// nothing more is written. One thread.
+/// **Failure.** A write that fails (a full disk, a medium gone read-only, a file that somebody has
+/// removed) is told by error(), and nothing more is written. One thread.
 class Journal {
  public:
   /// Opens the journal of a world, or begins one, and makes `folder` if it is missing. Throws

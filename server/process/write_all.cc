@@ -1,5 +1,6 @@
 #include "server/process/write_all.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,6 +18,11 @@ int WriteAll(int file, const std::string& bytes) {
     if (written > 0) done += static_cast<std::size_t>(written);
   }
   return 0;
+}
+
+bool IsRemoved(int file) {
+  struct stat facts {};
+  return fstat(file, &facts) == 0 && facts.st_nlink == 0;
 }
 
 }  // namespace collision::server

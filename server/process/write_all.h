@@ -12,4 +12,7 @@ std::string CauseOf(int error_number);
 /// the call that failed; some bytes may then be written.
 int WriteAll(int file, const std::string& bytes);
 
+/// Whether an open file has been removed: what is written to it nobody will find.
+bool IsRemoved(int file);
+
 }  // namespace collision::server

@@ -67,7 +67,7 @@ void ContactJournal::Write(std::int64_t wall_ns) {
   }
   const bool waits = !failure_.empty() && wall_ns < retry_ns_;
   if (waits) return;
-  const bool begins = !files_.is_open() || files_.bytes() >= file_bytes_max_;
+  const bool begins = !files_.is_open() || files_.is_removed() || files_.bytes() >= file_bytes_max_;
   if ((begins && !Begin(wall_ns)) || !files_.Append(bytes, wall_ns)) return Fail(wall_ns);
   if (!std::exchange(failure_, {}).empty()) {
     spdlog::info("{}: contacts are kept again", files_.path());

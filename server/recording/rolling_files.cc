@@ -69,6 +69,7 @@ bool RollingFiles::Open(const std::string& path, int flags, std::uint64_t bytes)
 }
 
 bool RollingFiles::Append(const std::string& bytes, std::int64_t wall_ns) {
+  if (is_removed()) return Fail(path_, ENOENT);
   const bool is_due = wall_ns - looked_ns_ > kLookAgainAfter || wall_ns < looked_ns_;
   if (is_due || former_bytes_ + bytes_ + bytes.size() > place_.bytes_max) DropOld(wall_ns);
   for (;;) {

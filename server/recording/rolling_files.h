@@ -6,6 +6,7 @@
 #include <string>
 
 #include "idl/recording/kept_files.h"
+#include "server/process/write_all.h"
 
 namespace collision::server {
 
@@ -40,13 +41,15 @@ class RollingFiles {
   /// Goes on with a former file, of which so many bytes are good: the others are cut off.
   bool Continue(const wire::KeptFile& file, std::uint64_t bytes);
 
-  /// Appends to the open file, whole or not at all. False: see error(); the file stays open.
+  /// Appends to the open file, whole or not at all. False: see error(); the file stays open. One
+  /// that somebody has removed takes nothing more.
   bool Append(const std::string& bytes, std::int64_t wall_ns);
 
   void Close();
 
   bool is_open() const { return file_ >= 0; }
-  std::uint64_t bytes() const { return bytes_; }  ///< Of the open file.
+  bool is_removed() const { return is_open() && IsRemoved(file_); }  ///< By somebody else.
+  std::uint64_t bytes() const { return bytes_; }                     ///< Of the open file.
   const std::string& path() const { return path_; }
 
   /// One line with path and cause of what failed last.

@@ -355,6 +355,14 @@ TEST_F(JournalTest, AFolderThatCannotBeMadeIsNamed) {
   }
 }
 
+TEST_F(JournalTest, ARemovedOneIsTold) {
+  Journal journal = Open();
+  EXPECT_TRUE(journal.SetTerm(1, 1));
+  std::filesystem::remove_all(folder_);
+  EXPECT_FALSE(journal.SetTerm(2, 1));
+  EXPECT_EQ(journal.error(), journal.path() + ": was removed");
+}
+
 TEST_F(JournalTest, AFullDiskIsToldAndWhatWasWrittenStays) {
   {
     Journal journal = Open();

@@ -86,6 +86,15 @@ TEST_F(ContactJournalTest, TheOldestGo) {
   EXPECT_EQ(kept.back(), 2000u);
 }
 
+TEST_F(ContactJournalTest, BeginsAnewWhereItsFileWasRemoved) {
+  ContactJournal journal(Place(1 << 20), 1);
+  Tell(&journal, 1);
+  std::filesystem::remove_all(folder_);
+  Tell(&journal, 2);
+  EXPECT_EQ(journal.failure(), "");
+  EXPECT_EQ(Kept(), std::vector<std::uint64_t>{2});
+}
+
 TEST_F(ContactJournalTest, WhatCannotBeWrittenIsTriedAgainAfterAMinute) {
   { std::ofstream(folder_) << "in the way"; }
   ContactJournal journal(Place(1 << 20), 1);

@@ -236,6 +236,20 @@ TEST_F(SegmentsTest, AFailureEndsTheSegmentAndTheNextBeginsAfterAWhile) {
       << "the newest inputs were kept meanwhile";
 }
 
+// Goal:   who removes the folder of a running service loses what was in it, and nothing later.
+TEST_F(SegmentsTest, BeginAnewWhereTheFileWasRemoved) {
+  Segments segments =
+      Begin(Place(1 << 30), {.bytes = 1 << 20, .age_ns = kStart, .retry_ns = 5 * kSecondNs});
+  for (int i = 0; i < 10; ++i) Step(&segments, Batch(i));
+  std::filesystem::remove_all(folder_);
+  Step(&segments, Batch(10));
+  EXPECT_NE(segments.failure(), "");
+  for (int i = 11; i < 30; ++i) Step(&segments, Batch(i));
+  EXPECT_EQ(segments.failure(), "");
+  ASSERT_EQ(Files().size(), 1u);
+  EXPECT_EQ(ClocksFrom(Files()[0]).back(), 29);
+}
+
 // Goal:   on a full disk the oldest segments make room; where none is left it says so.
 // Method: a small file system in memory, in a namespace of a thread of the test; that takes root,
 //         without whom nothing is tested here.
