@@ -84,8 +84,11 @@ TEST(FieldCheck, TextCountsBytes) {
 }
 
 TEST(FieldCheck, TextsHaveNoControlCharacters) {
-  for (const std::string& text : {std::string("a\tb"), std::string("a\0b", 3), std::string("a\x7f"),
-                                  std::string("a\xc2\x80"), std::string("a\xc2\x9f")}) {
+  for (const std::string& text :
+       {std::string("a\tb"), std::string("a\0b", 3), std::string("a\x7f"), std::string("a\xc2\x80"),
+        std::string("a\xc2\x9f"), std::string("a\xe2\x80\xa8"), std::string("a\xe2\x80\xae"),
+        std::string("a\xe2\x81\xa6"), std::string("a\xe2\x81\xa9"), std::string("a\xe2\x80\x8e"),
+        std::string("a\xd8\x9c")}) {
     FieldCheck check({});
     check.Text("name", text, 64);
     ASSERT_FALSE(check.passed());
@@ -93,7 +96,7 @@ TEST(FieldCheck, TextsHaveNoControlCharacters) {
               "a control character, as byte 1; allowed: printable characters");
   }
   FieldCheck check({});
-  check.Text("name", "\xc2\xa0\xc3\xa4 \xe2\x82\xac ~", 64);  // from U+00A0 on
+  check.Text("name", "\xc2\xa0\xc3\xa4 \xe2\x82\xac ~ \xe2\x80\x93 \xd8\x9d \xe2", 64);
   EXPECT_TRUE(check.passed());
 }
 
