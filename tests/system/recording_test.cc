@@ -28,6 +28,8 @@ TEST(Recording, ReplayGivesTheSameEventLog) {
   const Outcome replay = RunToEnd({Program("collisiond"), "--replay", recording});
   EXPECT_EQ(replay.status, 0) << replay.err;
   EXPECT_EQ(EventLogLine(replay.err), said);
+  EXPECT_NE(replay.out.find(R"("extensions":[{"key":"told_utc","value":"20)"), std::string::npos)
+      << replay.out;
   for (const char* status : {"EVENT_POSSIBLE", "EVENT_CONFIRMED", "EVENT_ENDED"}) {
     EXPECT_NE(replay.out.find(status), std::string::npos) << status << "\n" << replay.out;
   }

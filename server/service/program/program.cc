@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "idl/limits.h"
+#include "idl/recording/utc.h"
 #include "server/bus/dds_bus.h"
 #include "server/config/config.h"
 #include "server/config/config_options.h"
@@ -302,20 +303,24 @@ int ReloadOther(std::int32_t service) {
   return kExitSoftware;
 }
 
-/// An event as it is: of a hypothetical agent the message to its owner, which holds one.
-const google::protobuf::Message* EventIn(const v1::Output& output) {
-  if (output.has_collision_event()) return &output.collision_event();
-  return output.has_screening_event() ? &output.screening_event() : nullptr;
-}
-
-void PrintEvent(const v1::Output& output) {
-  const google::protobuf::Message* event = EventIn(output);
-  if (event == nullptr) return;
+/// An event as it is, with the wall time at which it was told as an extension; of a hypothetical
+/// agent the message to its owner, which holds one.
+void PrintEvent(const v1::Output& published, std::int64_t wall_ns) {
+  if (!published.has_collision_event() && !published.has_screening_event()) return;
+  v1::Output output = published;
+  v1::CollisionEvent* event = output.has_collision_event()
+                                  ? output.mutable_collision_event()
+                                  : output.mutable_screening_event()->mutable_event();
+  v1::KeyValue* told = event->add_extensions();
+  told->set_key("told_utc");
+  told->set_value(wire::UtcText(wall_ns));
+  const google::protobuf::Message* message = event;
+  if (output.has_screening_event()) message = &output.screening_event();
   google::protobuf::util::JsonPrintOptions options;
   options.preserve_proto_field_names = true;
   options.always_print_primitive_fields = true;
   std::string line;
-  if (google::protobuf::util::MessageToJsonString(*event, &line, options).ok()) {
+  if (google::protobuf::util::MessageToJsonString(*message, &line, options).ok()) {
     std::cout << line << '\n';
   }
 }
@@ -324,7 +329,8 @@ void PrintEvent(const v1::Output& output) {
 int Replay(SegmentChain& chain, const ReplayRange& range) {
   ReplaySource* clock = nullptr;
   ReplaySource source(chain, [&](const v1::Output& output) {
-    if (!range.from_ns || clock->Read().wall_ns >= *range.from_ns) PrintEvent(output);
+    const std::int64_t wall_ns = clock->Read().wall_ns;
+    if (!range.from_ns || wall_ns >= *range.from_ns) PrintEvent(output, wall_ns);
   });
   clock = &source;
   DaemonParts parts;
