@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "tests/system/secured_world.h"
@@ -66,6 +67,8 @@ TEST(Security, WithoutCredentialsAProgramHearsNobodyAndIsHeardByNobody) {
 // Goal:   who asks without credentials hears that the world is secured, and with them that all is
 //         well.
 TEST(Security, TheDoctorNamesASecuredWorld) {
+  // The doctor has two secured participants, of which the plugins of Cyclone DDS 0.10 leak.
+  setenv("LSAN_OPTIONS", "detect_leaks=0", 0);
   SecuredWorld secured(113);
   const Outcome without = secured.world().Monitor({"--timeout", "3", "doctor"});
   EXPECT_EQ(without.status, 1);
@@ -73,6 +76,7 @@ TEST(Security, TheDoctorNamesASecuredWorld) {
   const Outcome with = secured.Monitor({"doctor"});
   EXPECT_EQ(with.status, 0) << with.out;
   EXPECT_TRUE(Contains(with.out, "WELL: the service is heard")) << with.out;
+  EXPECT_TRUE(Contains(with.out, "; 1 programs on the network")) << "but itself: " << with.out;
 }
 
 // Goal:   who asks with credentials that do not fit hears that it is these.

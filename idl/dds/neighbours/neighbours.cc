@@ -1,7 +1,5 @@
 #include "idl/dds/neighbours/neighbours.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -204,18 +202,31 @@ DdsLookout::~DdsLookout() {
   if (participant_ > 0) dds_delete(participant_);
 }
 
+/// The participants of this process in the domain of one of them.
+std::vector<dds_instance_handle_t> OwnParticipants(dds_entity_t one) {
+  dds_domainid_t domain = 0;
+  std::array<dds_entity_t, 16> own{};
+  if (dds_get_domainid(one, &domain) != DDS_RETCODE_OK) return {};
+  const dds_return_t count = dds_lookup_participant(domain, own.data(), own.size());
+  std::vector<dds_instance_handle_t> handles;
+  for (std::size_t i = 0; i < own.size() && static_cast<dds_return_t>(i) < count; ++i) {
+    dds_instance_handle_t handle = 0;
+    if (dds_get_instance_handle(own.at(i), &handle) == DDS_RETCODE_OK) handles.push_back(handle);
+  }
+  return handles;
+}
+
 DdsNeighbours DdsLookout::Look() const {
   DdsNeighbours seen;
+  const std::vector<dds_instance_handle_t> own = OwnParticipants(participant_);
   Each<dds_builtintopic_participant_t>(
-      programs_, [&seen](const dds_builtintopic_participant_t& one, dds_instance_handle_t handle) {
+      programs_, [&](const dds_builtintopic_participant_t& one, dds_instance_handle_t handle) {
         DdsProgram& program = seen.programs[handle];
         program.process = Property(one.qos, "__ProcessName");
         program.pid = Property(one.qos, "__Pid");
         program.host = Property(one.qos, "__Hostname");
         program.addresses = Property(one.qos, "__NetworkAddresses");
-        std::array<char, 65> host{};
-        gethostname(host.data(), host.size() - 1);
-        program.is_own = program.pid == std::to_string(getpid()) && program.host == host.data();
+        program.is_own = std::ranges::count(own, handle) > 0;
       });
   for (const bool writes : {true, false}) {
     Each<dds_builtintopic_endpoint_t>(
