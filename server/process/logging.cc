@@ -1,15 +1,21 @@
 #include "server/process/logging.h"
 
+#include <fcntl.h>
 #include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/sinks/dist_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <iterator>
 #include <mutex>
+
+#include "server/process/write_all.h"
 
 namespace collision::server {
 namespace {
@@ -64,6 +70,64 @@ std::unique_ptr<spdlog::pattern_formatter> FormatFor(bool journal, bool json) {
   return format;
 }
 
+/// What last failed of the log.
+class FailedLines {
+ public:
+  void Note(const std::string& failure) {
+    const std::lock_guard lock(mutex_);
+    const auto now = std::chrono::steady_clock::now();
+    if (failure_.empty() || now - noted_ > kLogFailureStands)
+      std::fprintf(stderr, "collisiond: log_file: %s\n", failure.c_str());
+    failure_ = failure;
+    noted_ = now;
+  }
+
+  std::string Get() {
+    const std::lock_guard lock(mutex_);
+    if (std::chrono::steady_clock::now() - noted_ > kLogFailureStands) failure_.clear();
+    return failure_;
+  }
+
+  void Clear() {
+    const std::lock_guard lock(mutex_);
+    failure_.clear();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::string failure_;
+  std::chrono::steady_clock::time_point noted_;
+};
+
+FailedLines& TheFailedLines() {
+  static FailedLines lines;
+  return lines;
+}
+
+/// A file, appending. That of spdlog 1.10 does not notice a full disk.
+class FileSink final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit FileSink(const std::string& path)
+      : path_(path), file_(open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
+    if (file_ < 0) throw spdlog::spdlog_ex(path + ": cannot be opened", errno);
+  }
+  FileSink(const FileSink&) = delete;
+  FileSink& operator=(const FileSink&) = delete;
+  ~FileSink() override { close(file_); }
+
+ private:
+  void sink_it_(const spdlog::details::log_msg& line) override {
+    spdlog::memory_buf_t text;
+    formatter_->format(line, text);
+    const int failed = WriteAll(file_, {text.data(), text.size()});
+    if (failed != 0) TheFailedLines().Note(path_ + ": cannot be written: " + CauseOf(failed));
+  }
+  void flush_() override {}
+
+  const std::string path_;
+  const int file_;
+};
+
 /// The process has one log, as it has one default logger.
 struct ProcessLog {
   std::mutex mutex;
@@ -88,15 +152,24 @@ bool ErrorsGoToTheJournal() {
 
 void StartLogging(const LogOptions& options) {
   const std::string& file = options.file;
-  auto logger = file.empty() ? std::make_shared<spdlog::logger>(
-                                   "", std::make_shared<spdlog::sinks::stderr_color_sink_mt>())
-                             : std::make_shared<spdlog::logger>(
-                                   "", std::make_shared<spdlog::sinks::basic_file_sink_mt>(file));
-  logger->set_level(spdlog::level::from_str(options.level));
+  spdlog::sink_ptr sink;
+  if (file.empty()) {
+    sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+  } else {
+    sink = std::make_shared<FileSink>(file);
+  }
+  sink->set_formatter(FormatFor(file.empty() && ErrorsGoToTheJournal(), options.json));
+  TheFailedLines().Clear();
+  // Other threads may write a line meanwhile: the logger stays, its sink changes.
+  static const auto sinks = std::make_shared<spdlog::sinks::dist_sink_mt>();
+  static const auto logger = std::make_shared<spdlog::logger>("", sinks);
+  sinks->set_sinks({std::move(sink)});
   logger->flush_on(spdlog::level::trace);
-  logger->set_formatter(FormatFor(file.empty() && ErrorsGoToTheJournal(), options.json));
-  spdlog::set_default_logger(std::move(logger));
+  logger->set_level(spdlog::level::from_str(options.level));
+  if (spdlog::default_logger_raw() != logger.get()) spdlog::set_default_logger(logger);
 }
+
+std::string LogFailure() { return TheFailedLines().Get(); }
 
 void Log(spdlog::level::level_enum level, std::string_view matter, std::string_view text) {
   LogAbout(level, matter, {}, text);

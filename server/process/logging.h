@@ -26,6 +26,13 @@ struct LogOptions {
 /// spdlog::spdlog_ex if the file cannot be opened.
 void StartLogging(const LogOptions& options);
 
+/// Why the log could not be written within the last kLogFailureStands; empty: it could, or nothing
+/// was to be written. Standard error is told, too. Any thread.
+std::string LogFailure();
+
+/// So long a line that was lost counts as a failure of the log.
+inline constexpr std::chrono::minutes kLogFailureStands{1};
+
 /// Writes "matter: text", at most once per kMatterPeriod and matter; lines in between are held back
 /// and counted, and the next line says how many. A matter is a short constant phrase ("input
 /// refused"), never built from input: no input can fill a disk. Any thread.

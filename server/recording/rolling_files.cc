@@ -18,6 +18,10 @@ namespace {
 
 constexpr std::int64_t kLookAgainAfter = 60'000'000'000;  // [ns], of wall time
 constexpr std::int64_t kMillisecond = 1'000'000;
+/// A file that begins so much after now is of a clock that was wrong.
+constexpr std::int64_t kFuture = 86'400'000'000'000;  // [ns]
+/// Names of one service go up, unless its clock was set back by more.
+constexpr std::int64_t kSetBack = 1'000'000'000;  // [ns]
 constexpr int kSameTimeMax = 1000;  // Files that several services begin in one millisecond.
 
 bool IsFull(int error_number) { return error_number == ENOSPC || error_number == EDQUOT; }
@@ -29,12 +33,15 @@ bool RollingFiles::Begin(std::int64_t wall_ns) {
   std::filesystem::create_directories(place_.folder, failed);
   if (failed) return Fail(place_.folder, failed.value());
   DropOld(wall_ns);
-  const std::int64_t begin_ns = std::max(wall_ns, newest_ns_ + kMillisecond);
-  for (int later = 0; later < kSameTimeMax; ++later) {
+  std::int64_t begin_ns = wall_ns;
+  if (begun_ns_ >= wall_ns && begun_ns_ - wall_ns < kSetBack) begin_ns = begun_ns_ + kMillisecond;
+  for (int later = 0; later < kSameTimeMax; ++later, begin_ns += kMillisecond) {
     const std::string path =
-        place_.folder + "/" +
-        wire::KeptFileName(place_.world_and_domain, begin_ns + later * kMillisecond, place_.suffix);
-    if (Open(path, O_CREAT | O_EXCL, 0)) return true;
+        place_.folder + "/" + wire::KeptFileName(place_.world_and_domain, begin_ns, place_.suffix);
+    if (Open(path, O_CREAT | O_EXCL, 0)) {
+      begun_ns_ = begin_ns;
+      return true;
+    }
     if (errno == EEXIST) continue;
     if (!IsFull(errno) || !DropOldest()) break;
   }
@@ -94,34 +101,39 @@ void RollingFiles::Close() {
   bytes_ = 0;
 }
 
+/// The oldest first, but before these the ones that a wrong clock named.
+std::vector<wire::KeptFile> RollingFiles::FormerFiles() const {
+  std::vector<wire::KeptFile> files = wire::KeptFilesIn(place_.folder, place_.suffix);
+  std::erase_if(files, [this](const wire::KeptFile& file) {
+    return file.place() != place_.world_and_domain || (is_open() && file.path == path_);
+  });
+  std::ranges::stable_partition(
+      files, [this](const wire::KeptFile& file) { return file.begin_ns - kFuture > looked_ns_; });
+  return files;
+}
+
 void RollingFiles::DropOld(std::int64_t wall_ns) {
   looked_ns_ = wall_ns;
-  std::vector<wire::KeptFile> files;
+  const std::vector<wire::KeptFile> files = FormerFiles();
   former_bytes_ = 0;
-  newest_ns_ = 0;
-  for (wire::KeptFile& file : wire::KeptFilesIn(place_.folder, place_.suffix)) {
-    if (file.place() != place_.world_and_domain) continue;
-    newest_ns_ = std::max(newest_ns_, file.begin_ns);
-    if (is_open() && file.path == path_) continue;
-    former_bytes_ += file.bytes;
-    files.push_back(std::move(file));
-  }
+  for (const wire::KeptFile& file : files) former_bytes_ += file.bytes;
+  std::size_t left = files.size();
   for (std::size_t i = 0; i < files.size(); ++i) {
     // A file ends where the next one begins.
     const bool is_old = place_.keep_ns > 0 && i + 1 < files.size() &&
                         files[i + 1].begin_ns < wall_ns - place_.keep_ns;
-    const bool is_too_much = former_bytes_ + bytes_ > place_.bytes_max;
-    if (!is_old && !is_too_much && files.size() - i < kRollingFilesMax) return;
+    const bool is_too_much = former_bytes_ + bytes_ > place_.bytes_max || left >= kRollingFilesMax;
+    if (!is_old && !is_too_much) continue;
     if (!wire::IsInUse(files[i].path) && unlink(files[i].path.c_str()) == 0) {
       former_bytes_ -= files[i].bytes;
+      --left;
     }
   }
 }
 
 bool RollingFiles::DropOldest() {
-  for (const wire::KeptFile& file : wire::KeptFilesIn(place_.folder, place_.suffix)) {
-    if (file.place() != place_.world_and_domain || wire::IsInUse(file.path)) continue;
-    if (unlink(file.path.c_str()) != 0) continue;
+  for (const wire::KeptFile& file : FormerFiles()) {
+    if (wire::IsInUse(file.path) || unlink(file.path.c_str()) != 0) continue;
     Log(spdlog::level::warn, "disk full", "removed " + file.path + ", the oldest, to go on");
     return true;
   }

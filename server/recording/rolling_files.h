@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "idl/recording/kept_files.h"
 #include "server/process/write_all.h"
@@ -24,9 +25,10 @@ inline constexpr std::size_t kRollingFilesMax = 4096;
 
 /// The files of one world in a folder: one is being written, and locked (flock), the others are
 /// former ones. The oldest that no service writes to goes when there is more than `bytes_max`, when
-/// it is older than `keep_ns`, and when the disk is full. What cannot be written is left out whole:
-/// a file always ends with what one Append() wrote, unless the process was killed within it. No
-/// fsync: a machine that loses its power may lose the last half minute. Throws nothing. One thread.
+/// it is older than `keep_ns`, and when the disk is full; those of a clock that was ahead by more
+/// than a day go first. What cannot be written is left out whole: a file always ends with what one
+/// Append() wrote, unless the process was killed within it. No fsync: a machine that loses its power
+/// may lose the last half minute. Throws nothing. One thread.
 class RollingFiles {
  public:
   explicit RollingFiles(RollingPlace place) : place_(std::move(place)) {}
@@ -34,8 +36,8 @@ class RollingFiles {
   RollingFiles(const RollingFiles&) = delete;
   RollingFiles& operator=(const RollingFiles&) = delete;
 
-  /// Begins a file of this wall time, or right behind the newest one where the clock was set back,
-  /// and makes the folder if it is missing. Requires that none is open. False: see error().
+  /// Begins a file of this wall time, or the next millisecond where there is one of that name, and
+  /// makes the folder if it is missing. Requires that none is open. False: see error().
   bool Begin(std::int64_t wall_ns);
 
   /// Goes on with a former file, of which so many bytes are good: the others are cut off.
@@ -58,6 +60,7 @@ class RollingFiles {
  private:
   bool Open(const std::string& path, int flags, std::uint64_t bytes);
   int Write(const std::string& bytes);
+  std::vector<wire::KeptFile> FormerFiles() const;
   void DropOld(std::int64_t wall_ns);
   bool DropOldest();
   bool Fail(const std::string& path, int error_number);
@@ -67,8 +70,8 @@ class RollingFiles {
   std::string path_;
   std::uint64_t bytes_ = 0;         ///< Of the open file.
   std::uint64_t former_bytes_ = 0;  ///< Of all others, when last looked at.
-  std::int64_t newest_ns_ = 0;      ///< Wall time: when the newest begins; likewise.
-  std::int64_t looked_ns_ = 0;      ///< Wall time; then.
+  std::int64_t begun_ns_ = 0;       ///< Wall time, in the name of the file begun last.
+  std::int64_t looked_ns_ = 0;      ///< Wall time; when last looked.
   std::string error_;
 };
 

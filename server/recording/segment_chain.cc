@@ -1,9 +1,13 @@
 #include "server/recording/segment_chain.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <system_error>
+#include <tuple>
 
 #include "idl/recording/kept_files.h"
 #include "idl/recording/utc.h"
@@ -34,26 +38,89 @@ std::vector<wire::KeptFile> SegmentsIn(const std::string& folder) {
   return files;
 }
 
+/// The wall time of its last batch.
+std::int64_t EndOf(const std::string& path) {
+  std::int64_t end_ns = std::numeric_limits<std::int64_t>::min();
+  RecordingReader reader(path);
+  while (const auto batch = reader.Next()) end_ns = batch->wall_ns();
+  return end_ns;
+}
+
 }  // namespace
 
 SegmentChain::SegmentChain(const std::string& path, const ReplayRange& range) : range_(range) {
   std::error_code failed;
   if (!std::filesystem::is_directory(path, failed)) {
-    files_ = {path};
-  } else {
-    const std::vector<wire::KeptFile> files = SegmentsIn(path);
-    if (range.from_ns && *range.from_ns < files.front().begin_ns) {
-      throw std::runtime_error(path + ": --from " + wire::UtcText(*range.from_ns) +
-                               " is before all recordings; allowed: from " +
-                               wire::UtcText(files.front().begin_ns) + " on");
-    }
-    for (const wire::KeptFile& file : files) {
-      if (range.from_ns && file.begin_ns <= *range.from_ns) at_ = files_.size();
-      files_.push_back(file.path);
-      begins_ns_.push_back(file.begin_ns);
+    segments_.push_back({.path = path});
+    return;
+  }
+  const std::vector<wire::KeptFile> files = SegmentsIn(path);
+  if (range.from_ns && *range.from_ns < files.front().begin_ns) {
+    throw std::runtime_error(path + ": --from " + wire::UtcText(*range.from_ns) +
+                             " is before all recordings; allowed: from " +
+                             wire::UtcText(files.front().begin_ns) + " on");
+  }
+  for (const wire::KeptFile& file : files) segments_.push_back(HeaderOf(file.path, file.begin_ns));
+  SortByStart();
+  if (!range.from_ns) return;
+  next_ = FirstFrom(*range.from_ns);
+  if (next_ == segments_.size()) {
+    throw std::runtime_error(path + ": --from " + wire::UtcText(*range.from_ns) +
+                             " is after the end of all recordings");
+  }
+}
+
+SegmentChain::Segment SegmentChain::HeaderOf(const std::string& path, std::int64_t begin_ns) {
+  Segment segment{.path = path, .begin_ns = begin_ns};
+  try {
+    const RecordingReader reader(path);
+    segment.start = reader.claim().instance;
+    segment.number = reader.segment();
+  } catch (const std::runtime_error&) {
+    // NextRun() says why.
+  }
+  return segment;
+}
+
+/// One that cannot be opened stands for itself.
+void SegmentChain::SortByStart() {
+  std::map<std::uint64_t, std::int64_t> began;
+  for (const Segment& one : segments_) {
+    const auto known = began.try_emplace(one.start, one.begin_ns).first;
+    known->second = std::min(known->second, one.begin_ns);
+  }
+  for (Segment& one : segments_)
+    one.start_began_ns = one.number == 0 ? one.begin_ns : began.at(one.start);
+  std::ranges::sort(segments_, {}, [](const Segment& one) {
+    return std::tuple(one.start_began_ns, one.start, one.number, one.begin_ns);
+  });
+}
+
+/// The first segment that goes on beyond the time.
+std::size_t SegmentChain::FirstFrom(std::int64_t from_ns) const {
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const Segment& one = segments_[i];
+    if (one.number == 0 && one.begin_ns < from_ns) continue;
+    if (one.begin_ns >= from_ns) return i;
+    const bool is_last = i + 1 == segments_.size() || segments_[i + 1].start != one.start;
+    if (is_last ? EndOf(one.path) >= from_ns : segments_[i + 1].begin_ns > from_ns) return i;
+  }
+  return segments_.size();
+}
+
+bool SegmentChain::NextRun(const std::function<void(const std::string& cause)>& skipped) {
+  while (next_ < segments_.size()) {
+    const Segment& one = segments_[next_++];
+    if (range_.until_ns && one.begin_ns > *range_.until_ns) continue;
+    try {
+      reader_ = std::make_unique<RecordingReader>(one.path);
+      skips_opening_ = false;
+      return true;
+    } catch (const std::runtime_error& error) {
+      skipped(error.what());
     }
   }
-  reader_ = std::make_unique<RecordingReader>(files_[at_]);
+  return false;
 }
 
 std::optional<v1::RecordedBatch> SegmentChain::Next() {
@@ -71,34 +138,18 @@ std::optional<v1::RecordedBatch> SegmentChain::Next() {
 
 /// Opens the next segment if it goes on where this one ends.
 bool SegmentChain::GoOn() {
-  if (!reader_->continues() || at_ + 1 == files_.size()) return false;
-  std::unique_ptr<RecordingReader> next;
+  if (!reader_->continues() || next_ == segments_.size()) return false;
+  const Segment& next = segments_[next_];
+  if (next.start != reader_->claim().instance || next.number != reader_->segment() + 1)
+    return false;
   try {
-    next = std::make_unique<RecordingReader>(files_[at_ + 1]);
+    reader_ = std::make_unique<RecordingReader>(next.path);
   } catch (const std::runtime_error&) {
     return false;  // NextRun() says why
   }
-  if (next->claim().instance != reader_->claim().instance) return false;
-  if (next->segment() != reader_->segment() + 1) return false;
-  ++at_;
-  reader_ = std::move(next);
+  ++next_;
   skips_opening_ = true;
   return true;
-}
-
-bool SegmentChain::NextRun(const std::function<void(const std::string& cause)>& skipped) {
-  while (at_ + 1 < begins_ns_.size()) {
-    if (range_.until_ns && begins_ns_[at_ + 1] > *range_.until_ns) return false;
-    ++at_;
-    try {
-      reader_ = std::make_unique<RecordingReader>(files_[at_]);
-      skips_opening_ = false;
-      return true;
-    } catch (const std::runtime_error& error) {
-      skipped(error.what());
-    }
-  }
-  return false;
 }
 
 }  // namespace collision::server

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,7 +43,12 @@ class StepRecorder {
 
   /// One line with path and cause; empty while all is well.
   const std::string& failure() const { return failure_; }
-  std::string flight_failure() const { return flight_ == nullptr ? "" : flight_->failure(); }
+
+  /// Of both, as extensions of the status; empty where all is well.
+  std::map<std::string, std::string> Failures() const {
+    return {{"recording_failure", failure_},
+            {"flight_failure", flight_ == nullptr ? "" : flight_->failure()}};
+  }
 
  private:
   BatchSink* const sink_;

@@ -386,8 +386,8 @@ class Daemon::Implementation {
     AddText("state_failure", journal_.failure() + journal_.awaited(), &extensions);
     AddText(std::string(wire::kEndedRunsExtension),
             world_.ended_runs().TakeTurn(wire::kExtensionValueMax), &extensions);
-    AddText("recording_failure", recorder_.failure(), &extensions);
-    AddText("flight_failure", recorder_.flight_failure(), &extensions);
+    for (const auto& [key, failure] : recorder_.Failures()) AddText(key, failure, &extensions);
+    AddText("log_failure", LogFailure(), &extensions);
     AddText("contacts_failure", contact_report_.failure(), &extensions);
     if (quarantine_ != nullptr) AddText("quarantine", quarantine_->Summary(), &extensions);
     return extensions;

@@ -243,13 +243,6 @@ std::optional<int> ServeOnce(const v1::Config& config, const Options& options, b
   if (opens_later) open_journal = [&] { return (journal = ReadJournal(config)).get(); };
   const std::unique_ptr<Quarantine> quarantine = OpenQuarantine(config, journal.get());
   const ClaimOptions claim = ClaimOf(config, journal.get(), opens_later, again);
-  std::unique_ptr<RecordingWriter> recorder;
-  try {
-    recorder = MakeRecorder(options.record_file, config, claim);
-  } catch (const std::runtime_error& error) {
-    return Fail(kExitFile, error.what());
-  }
-  const KeptInStateDir kept = OpenKept(config, claim);
   std::unique_ptr<DdsBus> bus;
   try {
     bus =
@@ -257,6 +250,15 @@ std::optional<int> ServeOnce(const v1::Config& config, const Options& options, b
   } catch (const std::runtime_error& error) {
     return Fail(kExitUnavailable, error.what());
   }
+  // Behind all that can fail: a service that does not come up, and is started again and again, is
+  // not to replace what earlier ones have kept.
+  std::unique_ptr<RecordingWriter> recorder;
+  try {
+    recorder = MakeRecorder(options.record_file, config, claim);
+  } catch (const std::runtime_error& error) {
+    return Fail(kExitFile, error.what());
+  }
+  const KeptInStateDir kept = OpenKept(config, claim);
   LogSecurity(*bus, config);
   return Serve(config, *bus,
                {.recorder = recorder.get(),
@@ -366,11 +368,11 @@ int Replay(const Options& options) {
   }
   int code = kExitOk;
   const auto note = [&code](int result) { code = code == kExitOk ? result : code; };
-  do {
+  const auto skipped = [&note](const std::string& cause) { note(Fail(kExitFile, cause)); };
+  while (std::cout && chain->NextRun(skipped)) {
     const std::optional<int> refused = RefusalOfConfig(*chain);
     note(refused ? *refused : Replay(*chain, range));
-  } while (std::cout &&
-           chain->NextRun([&note](const std::string& cause) { note(Fail(kExitFile, cause)); }));
+  }
   return code;
 }
 

@@ -99,6 +99,18 @@ TEST(Logging, WritesToTheFileFromTheLevelOn) {
 }
 
 // Goal:   a program reads each line of the log as JSON, whatever its text holds.
+// Goal:   lines that are lost are told elsewhere.
+TEST(Logging, WhatCannotBeWrittenIsAFailure) {
+  StartLogging({.level = "warn", .file = "/dev/full"});
+  EXPECT_EQ(LogFailure(), "");
+  Log(spdlog::level::warn, "lost", "NaN");
+  EXPECT_NE(LogFailure().find("/dev/full: cannot be written: No space left on device"),
+            std::string::npos)
+      << LogFailure();
+  StartLogging({.level = "info"});
+  EXPECT_EQ(LogFailure(), "") << "a reload has named another file";
+}
+
 TEST(Logging, WritesJson) {
   const std::string path = testing::TempDir() + "logging_test.json";
   std::remove(path.c_str());

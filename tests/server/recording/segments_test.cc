@@ -79,6 +79,7 @@ class SegmentsTest : public testing::Test {
   std::vector<std::int64_t> ClocksFrom(const wire::KeptFile& file) const {
     std::vector<std::int64_t> clocks;
     SegmentChain chain(folder_, {.from_ns = file.begin_ns});
+    EXPECT_TRUE(chain.NextRun([](const std::string& cause) { ADD_FAILURE() << cause; }));
     while (const auto batch = chain.Next()) {
       if (!batch->opening()) clocks.push_back(batch->inputs(0).simulator_clock().clock_ns());
     }
@@ -149,6 +150,18 @@ TEST_F(SegmentsTest, TheOldestGoBeyondTheBoundAndAfterTheirTime) {
   for (int i = 1000; i < 1400; ++i) Step(&aged, Batch(i));
   EXPECT_GE(Files().front().begin_ns, kStart + 1270 * kSecondNs);
   EXPECT_LE(Files().front().begin_ns, kStart + 1300 * kSecondNs);
+}
+
+// Goal:   what a clock wrote that was years ahead does not push out what is written now.
+TEST_F(SegmentsTest, FilesOfAWrongClockGoFirst) {
+  {
+    Segments ahead(Place(1 << 30), {.bytes = 5'000, .age_ns = kStart}, config_, {.instance = 6},
+                   kStart * 2);
+  }
+  Segments segments = Begin(Place(30'000), {.bytes = 5'000, .age_ns = kStart});
+  for (int i = 0; i < 60; ++i) Step(&segments, Batch(i));
+  ASSERT_GT(Files().size(), 3u);
+  EXPECT_LT(Files().back().begin_ns, kStart + 60 * kSecondNs);
 }
 
 TEST_F(SegmentsTest, AStartKeepsWhatIsThereAndEachWorldHasItsOwn) {
@@ -234,6 +247,57 @@ TEST_F(SegmentsTest, AFailureEndsTheSegmentAndTheNextBeginsAfterAWhile) {
   EXPECT_EQ(ClocksFrom(Files()[1]).front(), 16);
   EXPECT_EQ(RecordingReader(Files()[1].path).Next()->inputs(0).simulator_clock().clock_ns(), 15)
       << "the newest inputs were kept meanwhile";
+}
+
+// Goal:   two services that write to one folder, with clocks that are set, are two runs, each whole
+//         and in its order; what cannot be read is passed over, also where it is the first.
+TEST_F(SegmentsTest, RunsAreToldApartByTheirHeaders) {
+  const SegmentLimits limits{.bytes = 5'000, .age_ns = 1'000 * kSecondNs};
+  Segments first = Begin(Place(1 << 30), limits);
+  Segments second(Place(1 << 30), limits, config_, {.instance = 8}, kStart + kSecondNs / 2);
+  const auto step = [&](Segments* segments, std::uint64_t instance, int number, int set_back_s) {
+    v1::RecordedBatch batch = Batch(number);
+    batch.set_wall_ns(batch.wall_ns() - set_back_s * kSecondNs);
+    Opening opening = OfAlpha();
+    opening.claim.instance = instance;
+    opening.serves = true;
+    segments->Take(batch, segments->wants_opening() ? std::optional(opening) : std::nullopt);
+    segments->Flush();
+  };
+  for (int i = 1; i < 40; ++i) step(&first, 7, i, i < 20 ? 0 : 15);
+  for (int i = 1; i < 40; ++i) step(&second, 8, i, 0);
+  first.End();
+  second.End();
+  std::ofstream(folder_ + "/lab.0.19990101T000000.000Z.rec") << "";
+  SegmentChain chain(folder_, {});
+  std::string skipped;
+  const auto skip = [&](const std::string& cause) { skipped += cause; };
+  for (const std::uint64_t instance : {7, 8}) {
+    ASSERT_TRUE(chain.NextRun(skip));
+    EXPECT_EQ(chain.claim().instance, instance);
+    std::vector<std::int64_t> clocks;
+    while (const auto batch = chain.Next()) {
+      if (!batch->opening()) clocks.push_back(batch->inputs(0).simulator_clock().clock_ns());
+    }
+    ASSERT_EQ(clocks.size(), 39u);
+    EXPECT_TRUE(std::ranges::is_sorted(clocks));
+  }
+  EXPECT_FALSE(chain.NextRun(skip));
+  EXPECT_NE(skipped.find("19990101T000000.000Z.rec"), std::string::npos) << skipped;
+}
+
+// Goal:   a replay from a time begins with the segment that has it, though another service has begun
+//         one later.
+TEST_F(SegmentsTest, AReplayBeginsWithTheRunThatHasTheTime) {
+  Segments first = Begin(Place(1 << 30), {.bytes = 1 << 20, .age_ns = 1'000 * kSecondNs});
+  for (int i = 0; i < 10; ++i) Step(&first, Batch(i));
+  Segments second(Place(1 << 30), {}, config_, {.instance = 8}, kStart + 5 * kSecondNs);
+  first.End();
+  second.End();
+  SegmentChain chain(folder_, {.from_ns = kStart + 8 * kSecondNs});
+  ASSERT_TRUE(chain.NextRun([](const std::string& cause) { ADD_FAILURE() << cause; }));
+  EXPECT_EQ(chain.claim().instance, 7u);
+  EXPECT_THROW(SegmentChain(folder_, {.from_ns = kStart + 60 * kSecondNs}), std::runtime_error);
 }
 
 // Goal:   who removes the folder of a running service loses what was in it, and nothing later.
