@@ -50,7 +50,7 @@ bool EntryReader::Next(v1::RecordingEntry* entry) {
   if (file_.peek() == std::ifstream::traits_type::eof() && !file_.bad()) return false;
   if (!ReadLength(&length)) return false;
   std::string bytes(length, '\0');
-  if (!file_.read(bytes.data(), static_cast<std::streamsize>(length))) return Fail("cut off");
+  if (!file_.read(bytes.data(), static_cast<std::streamsize>(length))) return FailAtEnd();
   const google::protobuf::LogSilencer silent;  // the error below reports it
   if (!entry->ParseFromString(bytes)) {
     return Fail(offset_ == 0 ? "not a recording" : "damaged: not a recording entry");
@@ -73,7 +73,7 @@ bool EntryReader::Fits(const std::string& bytes, const v1::RecordingEntry& entry
 bool EntryReader::ReadLength(std::uint64_t* length) {
   for (int i = 0; i < kLengthBytesMax; ++i) {
     const int byte = file_.get();
-    if (byte == std::ifstream::traits_type::eof()) return Fail("cut off");
+    if (byte == std::ifstream::traits_type::eof()) return FailAtEnd();
     *length |= static_cast<std::uint64_t>(byte & 0x7f) << (7 * i);
     if ((byte & 0x80) == 0) {
       return *length <= kEntryBytesMax ||
@@ -86,6 +86,11 @@ bool EntryReader::ReadLength(std::uint64_t* length) {
 bool EntryReader::Refuse(const std::string& what) {
   offset_ = before_;
   return Fail(what);
+}
+
+bool EntryReader::FailAtEnd() {
+  is_cut_off_ = true;
+  return Fail("cut off");
 }
 
 bool EntryReader::Fail(const std::string& what) {

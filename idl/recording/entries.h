@@ -36,6 +36,9 @@ class EntryReader {
   /// The entry that Next() gave last is not what it should be. Returns false.
   bool Refuse(const std::string& what);
 
+  /// The entry at the end is not there as a whole, and nothing comes behind it.
+  bool is_cut_off() const { return is_cut_off_; }
+
   /// One line with file, byte offset and cause. Empty while all is well.
   const std::string& error() const { return error_; }
 
@@ -44,12 +47,14 @@ class EntryReader {
  private:
   bool ReadLength(std::uint64_t* length);
   bool Fits(const std::string& bytes, const v1::RecordingEntry& entry);
+  bool FailAtEnd();
   bool Fail(const std::string& what);
 
   std::string path_;
   std::ifstream file_;
   std::uint64_t before_ = 0, offset_ = 0;  ///< Where the last and the next entry begin.
   bool is_checksummed_ = false;            ///< The first entry is: then all are.
+  bool is_cut_off_ = false;
   std::string error_;
 };
 

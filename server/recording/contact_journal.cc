@@ -14,6 +14,8 @@ namespace collision::server {
 namespace {
 
 constexpr int kFiles = 8;
+/// More than an entry has: what a kill has left of the last one is shorter.
+constexpr std::uint64_t kTailMax = 1 << 16;
 constexpr std::int64_t kRetryAfter = 60'000'000'000;  // [ns]
 
 }  // namespace
@@ -28,7 +30,7 @@ ContactJournal::ContactJournal(const RollingPlace& place, std::int64_t wall_ns)
   if (!files_.is_open() && !Begin(wall_ns)) Fail(wall_ns);
 }
 
-/// With the whole part of a former file.
+/// With a former file, without what a kill has left of its last entry.
 void ContactJournal::GoOn(const wire::KeptFile& file) {
   if (wire::IsInUse(file.path)) return;  // of the service beside which this one stands by
   try {
@@ -37,7 +39,12 @@ void ContactJournal::GoOn(const wire::KeptFile& file) {
     while (reader.Next(&entry)) {
     }
     if (reader.offset() == 0) return;
-    if (!reader.error().empty()) spdlog::warn("{}; it is cut off there", reader.error());
+    const bool is_whole = reader.error().empty();
+    const bool is_tail = reader.is_cut_off() && file.bytes - reader.offset() < kTailMax;
+    if (!is_whole && !is_tail) {
+      return spdlog::warn("{}; it stays as it is, and another one begins", reader.error());
+    }
+    if (!is_whole) spdlog::warn("{}; that is taken off", reader.error());
     static_cast<void>(files_.Continue(file, reader.offset()));
   } catch (const std::exception& failure) {
     spdlog::warn("{}", failure.what());
@@ -65,7 +72,8 @@ void ContactJournal::Write(std::int64_t wall_ns) {
     *entry.mutable_contact()->mutable_event() = std::move(contact);
     wire::AppendEntry(entry, &bytes);
   }
-  const bool waits = !failure_.empty() && wall_ns < retry_ns_;
+  // A clock that was set back waits for no time that it has had.
+  const bool waits = !failure_.empty() && wall_ns < retry_ns_ && wall_ns >= retry_ns_ - kRetryAfter;
   if (waits) return;
   const bool begins = !files_.is_open() || files_.is_removed() || files_.bytes() >= file_bytes_max_;
   if ((begins && !Begin(wall_ns)) || !files_.Append(bytes, wall_ns)) return Fail(wall_ns);

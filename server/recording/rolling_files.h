@@ -27,8 +27,8 @@ inline constexpr std::size_t kRollingFilesMax = 4096;
 /// former ones. The oldest that no service writes to goes when there is more than `bytes_max`, when
 /// it is older than `keep_ns`, and when the disk is full; those of a clock that was ahead by more
 /// than a day go first. What cannot be written is left out whole: a file always ends with what one
-/// Append() wrote, unless the process was killed within it. No fsync: a machine that loses its power
-/// may lose the last half minute. Throws nothing. One thread.
+/// Append() wrote, unless the process was killed within it. No fsync: a machine that loses its
+/// power may lose the last half minute. Throws nothing. One thread.
 class RollingFiles {
  public:
   explicit RollingFiles(RollingPlace place) : place_(std::move(place)) {}

@@ -95,7 +95,7 @@ std::int64_t SecondsSince1970() {
 
 Credentials::Credentials(const std::string& folder, std::uint32_t domain) {
   std::error_code error;
-  folder_ = fs::absolute(folder, error).lexically_normal().string();
+  folder_ = fs::weakly_canonical(fs::absolute(folder, error), error).string();
   if (!fs::is_directory(folder_, error)) throw Refused(folder_ + ": there is no such folder");
   for (const std::string_view name : kFiles) {
     const std::string path = folder_ + "/" + std::string(name);

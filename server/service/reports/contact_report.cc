@@ -30,12 +30,13 @@ std::string TimeText(std::int64_t ns, bool simulated_clock) {
   return fmt::format("{}.{:06d}Z", text, rest / 1000);
 }
 
-/// Of this contact of this pair, and of no other one but by chance.
+/// Of this contact of this pair in this epoch, and of no other one but by chance.
 std::uint64_t HashOf(const v1::CollisionEvent& contact) {
   const v1::AgentId &lower = contact.lower(), &higher = contact.higher();
-  return Fnv1a(fmt::format("{}.{}.{}.{} {}.{}.{}.{} {} {}", lower.simulator_id(), lower.run(),
-                           lower.slot(), lower.generation(), higher.simulator_id(), higher.run(),
-                           higher.slot(), higher.generation(), contact.contact(), contact.level()));
+  return Fnv1a(fmt::format("{} {}.{}.{}.{} {}.{}.{}.{} {} {}", contact.stamp().epoch(),
+                           lower.simulator_id(), lower.run(), lower.slot(), lower.generation(),
+                           higher.simulator_id(), higher.run(), higher.slot(), higher.generation(),
+                           contact.contact(), contact.level()));
 }
 
 }  // namespace

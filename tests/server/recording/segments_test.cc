@@ -286,8 +286,8 @@ TEST_F(SegmentsTest, RunsAreToldApartByTheirHeaders) {
   EXPECT_NE(skipped.find("19990101T000000.000Z.rec"), std::string::npos) << skipped;
 }
 
-// Goal:   a replay from a time begins with the segment that has it, though another service has begun
-//         one later.
+// Goal:   a replay from a time begins with the segment that has it, though another service has
+//         begun one later.
 TEST_F(SegmentsTest, AReplayBeginsWithTheRunThatHasTheTime) {
   Segments first = Begin(Place(1 << 30), {.bytes = 1 << 20, .age_ns = 1'000 * kSecondNs});
   for (int i = 0; i < 10; ++i) Step(&first, Batch(i));

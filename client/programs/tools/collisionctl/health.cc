@@ -31,9 +31,10 @@ std::string RefusedBetween(const v1::ServiceStatus& before, const v1::ServiceSta
   return names;
 }
 
+/// A service that serves is not critical: to start it again would mend nothing, also where it FAILS
+/// to keep what it should.
 HealthLevel LevelOf(const std::string& verdict) {
-  if (verdict.starts_with("WELL")) return HealthLevel::kWell;
-  return verdict.starts_with("FAILS") ? HealthLevel::kCritical : HealthLevel::kTrouble;
+  return verdict.starts_with("WELL") ? HealthLevel::kWell : HealthLevel::kTrouble;
 }
 
 /// The first status of a service that serves, and the next one.

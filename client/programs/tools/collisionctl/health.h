@@ -24,7 +24,7 @@ struct HealthOptions {
 enum class HealthLevel {
   kWell = 0,
   kTrouble = 1,  ///< It serves, and an operator should see to something.
-  kCritical = 2  ///< It does not serve, or fails, or simulators that are required are missing.
+  kCritical = 2  ///< It does not serve, or simulators that are required are missing.
 };
 
 struct Health {

@@ -69,9 +69,7 @@ std::size_t ReadContacts(const std::string& state_folder, const std::string& pla
   for (wire::KeptFile& file : wire::KeptFilesIn(folder, wire::kContactsSuffix)) {
     if (file.place() == place) files.push_back(std::move(file));
   }
-  for (const wire::KeptFile& file : files) {
-    if (file.begin_ns <= range.until_ns) ReadFile(file, range, take, complain);
-  }
+  for (const wire::KeptFile& file : files) ReadFile(file, range, take, complain);
   return files.size();
 }
 

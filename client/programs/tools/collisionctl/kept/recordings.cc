@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <set>
 #include <system_error>
 #include <tuple>
@@ -50,20 +51,40 @@ void Read(const std::string& path, SegmentFacts* facts) {
     facts->damage = "byte 0: it holds nothing";
 }
 
-/// Nothing where the journal of contacts is not there.
-std::optional<std::size_t> ContactsIn(const std::string& folder, const SegmentFacts& facts) {
-  std::set<std::tuple<std::uint64_t, AgentId, AgentId, std::string, std::uint32_t>> contacts;
-  const std::size_t files = ReadContacts(
-      folder, facts.file.place(), {.since_ns = facts.file.begin_ns, .until_ns = facts.end_ns},
-      [&](const v1::ToldContact& told) {
-        const v1::CollisionEvent& event = told.event();
-        contacts.emplace(event.stamp().service_id(), FromMessage(event.lower()),
-                         FromMessage(event.higher()), event.level(), event.contact());
-      },
-      [](const std::string&) {});
-  if (files == 0) return std::nullopt;
-  return contacts.size();
-}
+/// The journal of contacts of one world, read once: which contact was told when.
+class ToldContacts {
+ public:
+  ToldContacts(const std::string& folder, const std::string& place) {
+    const auto take = [this](const v1::ToldContact& told) {
+      const v1::CollisionEvent& event = told.event();
+      const v1::ServiceStamp& stamp = event.stamp();
+      const Contact contact(stamp.service_id(), stamp.epoch(), FromMessage(event.lower()),
+                            FromMessage(event.higher()), event.level(), event.contact());
+      told_.emplace_back(told.wall_ns(),
+                         numbers_.try_emplace(contact, numbers_.size()).first->second);
+    };
+    is_there_ = ReadContacts(folder, place, {}, take, [](const std::string&) {}) > 0;
+    std::ranges::sort(told_);
+  }
+
+  /// How many were told of between two times; nothing where there is no journal.
+  std::optional<std::size_t> Count(std::int64_t begin_ns, std::int64_t end_ns) const {
+    if (!is_there_) return std::nullopt;
+    std::set<std::size_t> contacts;
+    const auto from = std::ranges::lower_bound(told_, begin_ns, {}, &Told::first);
+    for (auto one = from; one != told_.end() && one->first <= end_ns; ++one)
+      contacts.insert(one->second);
+    return contacts.size();
+  }
+
+ private:
+  using Contact =
+      std::tuple<std::uint64_t, std::uint32_t, AgentId, AgentId, std::string, std::uint32_t>;
+  using Told = std::pair<std::int64_t, std::size_t>;  ///< Wall time, number of the contact.
+  bool is_there_ = false;
+  std::map<Contact, std::size_t> numbers_;
+  std::vector<Told> told_;
+};
 
 std::string NameOf(const SegmentFacts& facts) {
   return std::filesystem::path(facts.file.path).filename().string();
@@ -79,6 +100,7 @@ std::vector<SegmentFacts> SegmentsIn(const std::string& folder) {
     of_state = folder;
   }
   std::vector<SegmentFacts> segments;
+  std::map<std::string, ToldContacts> contacts;  // by world and domain
   for (const wire::KeptFile& file : wire::KeptFilesIn(of_segments, wire::kRecordingSuffix)) {
     SegmentFacts facts{.file = file, .end_ns = file.begin_ns};
     facts.is_written = wire::IsInUse(file.path);
@@ -87,7 +109,9 @@ std::vector<SegmentFacts> SegmentsIn(const std::string& folder) {
     } catch (const std::exception& failure) {
       facts.damage = failure.what();  // the oldest may have gone meanwhile
     }
-    facts.contacts = ContactsIn(of_state, facts);
+    const std::string place = file.place();
+    facts.contacts = contacts.try_emplace(place, of_state, place)
+                         .first->second.Count(file.begin_ns, facts.end_ns);
     segments.push_back(std::move(facts));
   }
   return segments;

@@ -62,9 +62,9 @@ TEST_F(HealthTest, WaitingAndLimitsAreTrouble) {
   Expect(Now(), HealthLevel::kTrouble, "NEARS A LIMIT");
 }
 
-TEST_F(HealthTest, AServiceThatFailsIsCritical) {
+TEST_F(HealthTest, AServiceThatServesAndKeepsNothingIsInTrouble) {
   Extend(Status(), "state_failure", "no space left");
-  Expect(Now(), HealthLevel::kCritical, "FAILS to keep its journal");
+  Expect(Now(), HealthLevel::kTrouble, "FAILS to keep its journal");
 }
 
 TEST_F(HealthTest, HasADocument) {
