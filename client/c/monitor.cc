@@ -14,20 +14,22 @@ using c::Require;
 
 struct collision_monitor {
   explicit collision_monitor(const MonitorOptions& options)
-      : connected(options, {.event = Keeps<Event>(COLLISION_NEWS_EVENT),
-                            .earliest = Keeps<EarliestIntersection>(COLLISION_NEWS_EARLIEST),
-                            .status = Keeps<ServiceStatus>(COLLISION_NEWS_STATUS),
-                            .clearance = KeepsOf<Clearance>(COLLISION_NEWS_CLEARANCE),
-                            .rejection = Keeps<Rejection>(COLLISION_NEWS_REJECTION),
-                            .breach = Keeps<Breach>(COLLISION_NEWS_BREACH),
-                            .description = Keeps<DescribedAgent>(COLLISION_NEWS_DESCRIPTION),
-                            .removal =
-                                [this](std::uint64_t simulator, std::uint32_t slot) {
-                                  news.Add({.kind = COLLISION_NEWS_REMOVAL,
-                                            .agent = {.simulator = simulator, .slot = slot}});
-                                },
-                            .state = KeepsOf<State>(COLLISION_NEWS_STATE),
-                            .clock = Keeps<SimulatorClock>(COLLISION_NEWS_CLOCK)}) {}
+      : connected(options,
+                  {.event = Keeps<Event>(COLLISION_NEWS_EVENT),
+                   .earliest = Keeps<EarliestIntersection>(COLLISION_NEWS_EARLIEST),
+                   .status = Keeps<ServiceStatus>(COLLISION_NEWS_STATUS),
+                   .clearance = KeepsOf<Clearance>(COLLISION_NEWS_CLEARANCE),
+                   .rejection = Keeps<Rejection>(COLLISION_NEWS_REJECTION),
+                   .breach = Keeps<Breach>(COLLISION_NEWS_BREACH),
+                   .description = Keeps<DescribedAgent>(COLLISION_NEWS_DESCRIPTION),
+                   .removal =
+                       [this](std::uint64_t simulator, std::uint32_t slot) {
+                         news.Add({.kind = COLLISION_NEWS_REMOVAL,
+                                   .agent = {.simulator = simulator, .slot = slot}});
+                       },
+                   .state = KeepsOf<State>(COLLISION_NEWS_STATE),
+                   .clock = Keeps<SimulatorClock>(COLLISION_NEWS_CLOCK),
+                   .notice = [this](const Notice& notice) { news.Add(c::NewsOf(notice)); }}) {}
 
   collision_monitor(const collision_monitor&) = delete;
   collision_monitor& operator=(const collision_monitor&) = delete;

@@ -15,6 +15,8 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 static_assert(COLLISION_ENDED == static_cast<int>(EventStatus::kEnded));
 static_assert(COLLISION_LIMITED_BY_GEOMETRY == static_cast<int>(EventLimit::kGeometry));
+static_assert(COLLISION_NOTICE_NO_SERVICE == 1 + static_cast<int>(NoticeKind::kNoService));
+static_assert(COLLISION_NOTICE_CREDENTIALS == 1 + static_cast<int>(NoticeKind::kCredentials));
 static_assert(COLLISION_EXPECTED_UNDECIDED == static_cast<int>(ExpectedOutcome::kUndecided));
 
 template <std::size_t size>
@@ -102,6 +104,13 @@ collision_clearance ToC(const Clearance& from) {
   return to;
 }
 
+News NewsOf(const Notice& notice) {
+  return {.kind = COLLISION_NEWS_NOTICE,
+          .text = notice.text,
+          .over = notice.over,
+          .notice = 1 + static_cast<std::int32_t>(notice.kind)};
+}
+
 const collision_news* ToldNews::Tell(const News& news) {
   tags_.clear();
   news_ = {};
@@ -110,6 +119,7 @@ const collision_news* ToldNews::Tell(const News& news) {
   news_.agent = ToC(news.agent);
   news_.text = news.text.c_str();
   news_.over = news.over ? 1 : 0;
+  news_.notice = news.notice;
   std::visit([this](const auto& value) { Put(value); }, news.value);
   return &news_;
 }
@@ -186,12 +196,16 @@ void ToldNews::Put(const Breach& breach) {
 
 void ToldNews::Put(const ServiceStatus& status) {
   simulators_.clear();
+  quotas_.clear();
   for (const SimulatorStatus& simulator : status.simulators) {
+    std::vector<collision_quota>& quotas = quotas_.emplace_back();
+    for (const auto& [name, quota] : simulator.quotas)
+      quotas.push_back({name.c_str(), quota.used, quota.most});
     simulators_.push_back({simulator.simulator, simulator.name.c_str(), simulator.run,
                            simulator.agents, simulator.clock_ns, simulator.granted_until_ns,
                            simulator.states, simulator.rejected, Copied(simulator.clock_offset),
                            simulator.alive ? 1 : 0, simulator.refused_now,
-                           simulator.refused_why.c_str()});
+                           simulator.refused_why.c_str(), quotas.data(), quotas.size()});
   }
   counters_.clear();
   for (const auto& [name, value] : status.counters) counters_.push_back({name.c_str(), value});

@@ -25,7 +25,11 @@ struct News {
       value = {};
   std::string text = {};
   bool over = false;
+  std::int32_t notice = 0;  ///< COLLISION_NOTICE_...
 };
+
+/// A notice of a world or a monitor.
+News NewsOf(const Notice& notice);
 
 /// One piece of news in C. Owns whatever it points to, but not the News.
 class ToldNews {
@@ -65,6 +69,7 @@ class ToldNews {
   std::list<std::vector<collision_tag>> tags_;  ///< Elements stay where they are.
   std::vector<const char*> meets_, never_meets_;
   std::vector<collision_simulator_status> simulators_;
+  std::list<std::vector<collision_quota>> quotas_;  ///< Of each.
   std::vector<collision_counter> counters_;
   std::vector<collision_histogram> histograms_;
 };

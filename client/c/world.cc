@@ -57,9 +57,7 @@ void collision_world::Listen(bool notices) {
     news.Add({.kind = COLLISION_NEWS_WAITING, .text = text});
   });
   if (!notices) return;
-  connected.OnNotice([this](const Notice& notice) {
-    news.Add({.kind = COLLISION_NEWS_NOTICE, .text = notice.text, .over = notice.over});
-  });
+  connected.OnNotice([this](const Notice& notice) { news.Add(c::NewsOf(notice)); });
 }
 
 namespace {

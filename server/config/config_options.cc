@@ -236,7 +236,7 @@ constexpr ConfigOption kOptions[] = {
      "a path of at most 4096 printable ASCII characters, or empty", "\"\"",
      "Folder of this service's credentials, as collisionctl make-certificates makes it: the world "
      "is secured, and programs without credentials of the same authority are not heard "
-     "(docker/SECURITY.md). Empty: COLLISION_CREDENTIALS, if it is set, else none."},
+     "(docker/SECURITY.md). COLLISION_CREDENTIALS and --credentials go before it."},
 };
 
 class Silent final : public google::protobuf::io::ErrorCollector {

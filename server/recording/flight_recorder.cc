@@ -50,7 +50,8 @@ struct FlightRecorder::Shared {
   bool misses = false;  ///< Batches are left out, until the thread has written all others.
   NewestInputs missed;  ///< Their newest inputs.
   bool ends = false, has_ended = false;
-  Segments segments;  ///< The thread's.
+  bool has_given_up = false;  ///< The thread has failed: nothing is recorded any more.
+  Segments segments;          ///< The thread's.
   std::string failure;
   std::atomic<bool> wants_opening = false, wants_census = false;
 };
@@ -58,7 +59,25 @@ struct FlightRecorder::Shared {
 FlightRecorder::FlightRecorder(RollingPlace place, SegmentLimits limits, const v1::Config& config,
                                const ClaimOptions& claim, std::int64_t wall_ns)
     : shared_(std::make_shared<Shared>(std::move(place), limits, config, claim, wall_ns)) {
-  std::thread([shared = shared_] { Write(shared); }).detach();
+  std::thread([shared = shared_] {
+    try {
+      Write(shared);
+    } catch (const std::exception& failure) {
+      GiveUp(failure.what(), shared.get());
+    }
+  }).detach();
+}
+
+/// The service goes on without it.
+void FlightRecorder::GiveUp(const std::string& cause, Shared* shared) {
+  const std::lock_guard lock(shared->mutex);
+  shared->failure = "flight recorder: it has ended: " + cause;
+  spdlog::error("{}; the service goes on without it", shared->failure);
+  shared->has_given_up = shared->has_ended = true;
+  shared->wants_opening = shared->wants_census = false;
+  shared->queue.clear();
+  shared->bytes = 0;
+  shared->changed.notify_all();
 }
 
 FlightRecorder::~FlightRecorder() {
@@ -69,6 +88,11 @@ FlightRecorder::~FlightRecorder() {
     return;
   spdlog::warn("flight recorder: the disk does not answer; {} batches are not written",
                shared_->queue.size());
+}
+
+void FlightRecorder::WaitUntilWritten() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->changed.wait_for(lock, kFlightEndPatience, [&] { return shared_->bytes == 0; });
 }
 
 bool FlightRecorder::wants_opening() const { return shared_->wants_opening; }
@@ -84,6 +108,7 @@ void FlightRecorder::Take(std::shared_ptr<const v1::RecordedBatch> batch,
                           std::optional<Opening> opening) {
   const std::uint64_t bytes = BytesOf(*batch);
   const std::lock_guard lock(shared_->mutex);
+  if (shared_->has_given_up) return;
   const bool is_full = !shared_->queue.empty() && shared_->bytes + bytes > shared_->bytes_max;
   if (shared_->misses || is_full) {
     shared_->misses = true;
@@ -122,6 +147,7 @@ void FlightRecorder::Write(const std::shared_ptr<Shared>& shared) {
     all.segments.Flush();
     lock.lock();
     all.bytes -= written;
+    all.changed.notify_all();
     all.failure = all.segments.failure();
     // One that is on its way is not asked for again.
     const auto brings_one = [](const Shared::Item& item) { return item.opening.has_value(); };

@@ -14,6 +14,9 @@
 
 namespace collision::server {
 
+/// How long the end of the service waits for the disk; what is not written then is lost.
+inline constexpr std::chrono::seconds kFlightEndPatience{2};
+
 /// Takes the batch of each step, and never fails.
 class FlightSink {
  public:
@@ -32,10 +35,10 @@ class FlightSink {
 
   /// Why nothing is recorded at the moment, in one line; empty: it is.
   virtual std::string failure() const = 0;
-};
 
-/// How long the end of the service waits for the disk; what is not written then is lost.
-inline constexpr std::chrono::seconds kFlightEndPatience{2};
+  /// Waits until all that was taken is written, at most kFlightEndPatience. Any thread.
+  virtual void WaitUntilWritten() {}
+};
 
 /// Hands the batches to a thread that writes them (Segments). The step shares its batch with that
 /// thread and copies nothing; it waits for no disk, for no longer than it takes to put a pointer
@@ -57,10 +60,12 @@ class FlightRecorder final : public FlightSink {
   bool wants_opening() const override;
   bool wants_census() const override;
   std::string failure() const override;
+  void WaitUntilWritten() override;
 
  private:
   struct Shared;
   static void Write(const std::shared_ptr<Shared>& shared);
+  static void GiveUp(const std::string& cause, Shared* shared);
 
   /// With the thread, which a disk that hangs keeps beyond the end of this.
   const std::shared_ptr<Shared> shared_;

@@ -85,6 +85,9 @@ void NewestInputs::Put(const Key& key, Kept kept) {
   const std::uint64_t bytes = bytes_ - before + kept.serialised.size() + kOverhead;
   if (bytes > bytes_max_ && bytes > bytes_) {
     ++left_out_;
+    if (known == kept_.end()) return;
+    bytes_ -= before;
+    kept_.erase(known);  // it is no longer the newest
     return;
   }
   if (bytes > bytes_) new_bytes_ += bytes - bytes_;

@@ -46,8 +46,8 @@ std::uint64_t NewestBytesMax(const v1::Config& config);
 /// leaves with Keep(). So that whoever writes ever-new keys takes no memory, that is due when what
 /// is new since the last call takes more than all of it that the service had then, and
 /// kNewBytes (wants_census()): it holds three times the world, and twice kNewBytes, at most. If the
-/// call does not come, it is bounded by `bytes_max`, beyond which inputs of new keys are left out
-/// and counted. One thread.
+/// call does not come, it is bounded by `bytes_max`, beyond which inputs are left out and counted,
+/// with what was known of their keys. One thread.
 class NewestInputs {
  public:
   /// `follows`: it will be taken by another one, of what came before, and so notes what is removed.

@@ -95,6 +95,7 @@ void Segments::Begin(const v1::RecordedBatch& batch, const Opening& opening) {
   Close(true);
   wants_opening_ = false;
   newest_.Keep(opening.simulators);
+  TellWhatIsLeftOut();
   began_ns_ = monotonic_ns_;
   if (!files_.Begin(wall_ns_)) return Fail();
   Append(HeaderOf(config_, opening.claim, ++number_));
@@ -103,6 +104,15 @@ void Segments::Begin(const v1::RecordedBatch& batch, const Opening& opening) {
   if (files_.is_open() && !std::exchange(failure_, {}).empty()) {
     spdlog::info("{}: the flight recorder goes on", files_.path());
   }
+}
+
+void Segments::TellWhatIsLeftOut() {
+  if (newest_.left_out() == left_out_told_) return;
+  left_out_told_ = newest_.left_out();
+  spdlog::warn(
+      "flight recorder: {} inputs had no room so far among the newest ones (of {} MB): a "
+      "replay from a later segment may lack agents or shapes",
+      left_out_told_, newest_.bytes_max() / 1'000'000);
 }
 
 void Segments::AppendOpening(const v1::RecordedBatch& batch, const Opening& opening) {

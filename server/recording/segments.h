@@ -61,6 +61,7 @@ class Segments {
 
  private:
   void Begin(const v1::RecordedBatch& batch, const Opening& opening);
+  void TellWhatIsLeftOut();
   void AppendOpening(const v1::RecordedBatch& times, const Opening& opening);
   void AppendBatch(const v1::RecordedBatch& times, const std::string& inputs);
   void Append(const v1::RecordingEntry& entry);
@@ -73,6 +74,7 @@ class Segments {
   NewestInputs newest_;
   std::string unwritten_;
   std::uint32_t number_ = 1;
+  std::uint64_t left_out_told_ = 0;
   std::int64_t wall_ns_ = 0, monotonic_ns_ = 0;  ///< Of the newest batch.
   std::int64_t began_ns_ = 0;                    ///< Monotonic.
   std::int64_t retry_ns_ = 0;                    ///< Likewise: when to try again.

@@ -112,6 +112,7 @@ class Daemon::Implementation {
   bool Apply(std::int64_t before_ns, std::vector<v1::Input> received) {
     const SharedBatch batch = Begin(clock_.Read(), std::move(received));
     if (!Record(batch)) return false;
+    contact_report_.BeginStep(batch->wall_ns());
     const BatchInputs& inputs = batch->inputs();
     // Otherwise there is a step for each status at least.
     const std::int64_t gap_ns = world_.monotonic_ns() - before_ns;
@@ -152,7 +153,6 @@ class Daemon::Implementation {
     if (claim_.phase() != ClaimPhase::kWaking && schedule_.Take(world_)) SendStatus();
     for (const std::uint64_t simulator : world_.TakeForgotten()) bus_.Forget(simulator);
     publisher_.Flush();
-    contact_report_.EndStep(batch->wall_ns());
     measurements_.EndStep();
     for (const auto& [matter, text] : bus_.TakeWarnings()) Log(spdlog::level::warn, matter, text);
 #ifndef NDEBUG

@@ -20,6 +20,7 @@
 #include "server/process/service_notify.h"
 #include "server/process/signals.h"
 #include "server/process/version.h"
+#include "server/recording/flight_recorder.h"
 #include "server/service/daemon.h"
 #include "server/service/requests/signal_requests.h"
 #include "server/service/wait_for_clock.h"
@@ -33,9 +34,11 @@ namespace {
 constexpr std::chrono::milliseconds kStepPatience{700};
 
 /// Leaves the step that runs: nothing is lost that the recording does not hold.
-[[noreturn]] void EndInTheStep(RecordingWriter* recorder, Quarantine* quarantine) {
+[[noreturn]] void EndInTheStep(RecordingWriter* recorder, FlightSink* flight,
+                               Quarantine* quarantine) {
   std::unique_lock<std::mutex> no_write;
   if (recorder != nullptr) no_write = recorder->HoldWrites();
+  if (flight != nullptr) flight->WaitUntilWritten();
   spdlog::warn(
       "a step is still running {} ms after the stop signal: collisiond exits without "
       "waiting for it; the recording, if any, is complete",
@@ -180,8 +183,8 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
       Reloader(config, std::move(parts.load_config)), [&daemon] { return daemon.StateLines(); },
       &service_manager);
   SignalActions actions = ActionsOf(&daemon, &requests, &bus);
-  actions.give_up = [recorder, quarantine = parts.quarantine] {
-    EndInTheStep(recorder, quarantine);
+  actions.give_up = [recorder, flight = parts.flight, quarantine = parts.quarantine] {
+    EndInTheStep(recorder, flight, quarantine);
   };
   const SignalWatcher signals(std::move(actions));
   LogStart(config, parts.claim, has_journal);

@@ -283,6 +283,7 @@ static void hear_event(const collision_event* event, heard* all) {
 }
 
 static void hear(const collision_news* news, heard* all) {
+  size_t i;
   REQUIRE(news->struct_size >= sizeof *news && news->kind > 0 && news->kind < 32);
   ++all->kinds[news->kind];
   switch (news->kind) {
@@ -304,6 +305,12 @@ static void hear(const collision_news* news, heard* all) {
       CHECK(strlen(news->status->build) > 0 && news->status->uptime_ns > 0);
       CHECK(news->status->memory_bytes > 1000000 && news->status->started_ns > 0);
       CHECK(news->status->histograms_count == 3 && news->status->histograms[0].name != NULL);
+      for (i = 0; i < news->status->simulators_count; ++i) {
+        const collision_simulator_status* one = &news->status->simulators[i];
+        if (one->agents == 0) continue;
+        CHECK(one->quotas_count > 0 && one->quotas[0].most >= one->quotas[0].used);
+        CHECK(one->quotas[0].used > 0 && one->quotas[0].name != NULL);
+      }
       return;
     case COLLISION_NEWS_CLEARANCE:
     case COLLISION_NEWS_LOWERED:
@@ -320,6 +327,10 @@ static void hear(const collision_news* news, heard* all) {
       return;
     case COLLISION_NEWS_CLOCK:
       CHECK(news->clock->lock_step == 1 && strcmp(news->clock->name, "") != 0);
+      return;
+    case COLLISION_NEWS_NOTICE:
+      CHECK(news->notice >= COLLISION_NOTICE_NO_SERVICE);
+      CHECK(news->notice <= COLLISION_NOTICE_CREDENTIALS && strcmp(news->text, "") != 0);
       return;
     case COLLISION_NEWS_EARLIEST:
       CHECK(news->earliest->found == 0 || news->earliest->earliest_ns >= 0);

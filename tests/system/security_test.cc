@@ -252,8 +252,13 @@ TEST(Security, CredentialsThatEndWhileTheirProgramRunsAreTold) {
   const auto left = secured.StartSimulator(kLeft);
   secured.ShortCredentialsOf("simulator", "right-sim", 12);
   const auto right = secured.StartSimulator(kRight, kHardlyMoves);
+  const auto monitor = secured.world().StartMonitor(
+      {"--credentials", secured.ShortCredentialsOf("monitor", "short", 12), "events", "--follow"});
   EXPECT_TRUE(right->WaitForOutput("identity.pem ends in 0 min")) << right->err();
   EXPECT_TRUE(right->WaitForOutput("no secured program hears this one any more")) << right->err();
+  EXPECT_TRUE(monitor->WaitForOutput("no secured program hears this one any more"));
+  monitor->Signal(SIGTERM);
+  EXPECT_EQ(monitor->WaitForExit(), 0);
   // The service has lost it, and the other one goes on without it.
   EXPECT_EQ(left->WaitForExit(), 0) << left->err() << secured.daemon().err();
 }

@@ -13,6 +13,13 @@
 extern "C" {
 #endif
 
+/** What a simulator has of one of the limits of the world, and may have as things are. */
+typedef struct collision_quota {
+  const char* name; /**< agents, shapes, shape_bytes, tree_bytes */
+  uint64_t used;
+  uint64_t most;
+} collision_quota;
+
 /** What the service knows of one simulator. */
 typedef struct collision_simulator_status {
   uint64_t simulator;
@@ -25,8 +32,10 @@ typedef struct collision_simulator_status {
   uint64_t rejected;
   collision_bracket clock_offset;
   int32_t alive;
-  uint32_t refused_now;    /**< Of what it has written, as it stands. */
-  const char* refused_why; /**< Of one of these: reason and field; "": none. */
+  uint32_t refused_now;          /**< Of what it has written, as it stands. */
+  const char* refused_why;       /**< Of one of these: reason and field; "": none. */
+  const collision_quota* quotas; /**< Those of which it has something. */
+  size_t quotas_count;
 } collision_simulator_status;
 
 /** A counter of the service. */

@@ -315,7 +315,7 @@ enum {
   COLLISION_NEWS_SERVICE_LOST = 4, /**< nothing was heard of it for 2 s */
   COLLISION_NEWS_SERVICE_BACK = 5,
   COLLISION_NEWS_WAITING = 6,      /**< text: for whom time waits, with commas; "": for nobody */
-  COLLISION_NEWS_NOTICE = 7,       /**< text, over */
+  COLLISION_NEWS_NOTICE = 7,       /**< text, over, notice; monitors: of their credentials */
   COLLISION_NEWS_REJECTION = 8,    /**< rejection */
   COLLISION_NEWS_BREACH = 9,       /**< breach; this and those below come to monitors only */
   COLLISION_NEWS_STATUS = 10,      /**< status */
@@ -325,6 +325,18 @@ enum {
   COLLISION_NEWS_REMOVAL = 14,     /**< agent: its simulator and slot */
   COLLISION_NEWS_STATE = 15,       /**< agent, state */
   COLLISION_NEWS_CLOCK = 16        /**< clock */
+};
+
+/** What stands in the way of a program. */
+enum {
+  COLLISION_NOTICE_NO_SERVICE = 1,  /**< no service of the world is heard, since 3 s */
+  COLLISION_NOTICE_WRONG_CLOCK = 2, /**< one of them is in lock-step, the other in real time */
+  COLLISION_NOTICE_WAITING = 3,     /**< lock-step: a step is not granted, since 3 s */
+  COLLISION_NOTICE_REFUSED = 4,     /**< the service refuses what was sent */
+  COLLISION_NOTICE_NAME_TAKEN = 5,  /**< another living program has the simulator's name */
+  COLLISION_NOTICE_ENDED = 6,       /**< an operator has ended the run */
+  COLLISION_NOTICE_BREACH = 7,      /**< the simulator broke what it declared */
+  COLLISION_NOTICE_CREDENTIALS = 8  /**< its credentials end before long, or have ended */
 };
 
 /** One piece of news. */
@@ -342,7 +354,8 @@ typedef struct collision_news {
   const collision_state* state;
   const collision_clock* clock;
   const char* text;
-  int32_t over;
+  int32_t over;   /**< What was told before is the case no longer. */
+  int32_t notice; /**< COLLISION_NOTICE_... */
 } collision_news;
 
 /* ---- Monitors ---- */

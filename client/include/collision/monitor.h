@@ -13,6 +13,7 @@
 
 #include "collision/environment.h"
 #include "collision/export.h"
+#include "collision/notice.h"
 #include "collision/types.h"
 
 namespace collision::client {
@@ -137,6 +138,9 @@ class COLLISION_API Monitor {
     std::function<void(std::uint64_t simulator, std::uint32_t slot)> removal = {};
     std::function<void(const AgentId&, const State&)> state = {};
     std::function<void(const SimulatorClock&)> clock = {};
+    /// What stands in this program's way, or will: its credentials end. Empty: standard error is
+    /// told.
+    std::function<void(const Notice&)> notice = {};
   };
 
   /// Throws std::runtime_error if an option is out of range or DDS is not available.

@@ -1,5 +1,6 @@
 #include "client/library/network/message_monitor.h"
 
+#include <cstdio>
 #include <utility>
 
 #include "client/library/network/arrival_order.h"
@@ -47,7 +48,16 @@ std::size_t MessageMonitor::Poll(std::chrono::nanoseconds timeout) {
   // The end of a service comes after all that it wrote.
   for (const v1::Input& input : arrivals.inputs) HandOn(input);
   GiveUpOverdue();
+  TellOfCredentials();
   return arrivals.inputs.size() + arrivals.outputs.size();
+}
+
+void MessageMonitor::TellOfCredentials() {
+  const std::optional<std::string> warning = receiver_->TakeCredentialsWarning();
+  if (!warning) return;
+  const Notice notice{.kind = NoticeKind::kCredentials, .text = *warning};
+  if (callbacks_.notice) return callbacks_.notice(notice);
+  std::fprintf(stderr, "%s: %s\n", Name(notice.kind), notice.text.c_str());
 }
 
 void MessageMonitor::Take(const v1::ServiceHello& hello) {

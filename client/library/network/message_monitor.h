@@ -14,6 +14,7 @@
 #include "client/library/network/revision_filter.h"
 #include "client/library/network/transport.h"
 #include "collision/monitor.h"
+#include "collision/notice.h"
 #include "idl/messages.pb.h"
 
 namespace collision::client {
@@ -41,6 +42,7 @@ class MessageMonitor {
     std::function<void(const v1::Rejection&)> rejection = {};
     std::function<void(const v1::SimulatorReport&)> report = {};
     std::function<void(const v1::AgentBreach&)> breach = {};
+    std::function<void(const Notice&)> notice = {};  ///< Empty: standard error is told.
   };
 
   /// Throws std::runtime_error if an option is out of range or DDS is not available.
@@ -52,9 +54,6 @@ class MessageMonitor {
   std::size_t Poll(std::chrono::nanoseconds timeout);
 
   bool service_alive() const { return receiver_->service_alive(); }
-  std::optional<std::string> TakeCredentialsWarning() {
-    return receiver_->TakeCredentialsWarning();
-  }
   /// A sentence for people: there is a service of another wire revision, of which nothing is read;
   /// empty: there is none.
   const std::string& unreadable() const { return unreadable_text_; }
@@ -69,6 +68,7 @@ class MessageMonitor {
     CurrentService::Time since;
   };
 
+  void TellOfCredentials();
   void HandOn(const v1::Input& input);
   void HandOn(const v1::Output& output);
   void Take(const v1::ServiceHello& hello);

@@ -24,6 +24,7 @@ MessageMonitor::Callbacks Converting(const Monitor::Callbacks& plain) {
   Convert(plain.breach, &callbacks.breach);
   Convert(plain.description, &callbacks.description);
   Convert(plain.clock, &callbacks.clock);
+  callbacks.notice = plain.notice;
   if (plain.clearance) {
     callbacks.clearance = [hear = plain.clearance](const v1::Clearance& message) {
       for (const v1::AgentClearance& agent : message.agents()) {

@@ -156,8 +156,6 @@ int Run(const std::string& command, const ViewOptions& options) {
   std::cerr << "collisionctl: " << PlaceText(options.monitor.world, options.monitor.domain) << '\n';
   WorldView view;
   MessageMonitor monitor(options.monitor, view.Callbacks());
-  const auto warning = monitor.TakeCredentialsWarning();
-  if (warning) std::cerr << "collisionctl: " << *warning << '\n';
   const Deadline deadline(Seconds(options.timeout_s));
   if (!WaitForService(&monitor, view, deadline)) {
     if (stopped != 0) return 0;

@@ -35,9 +35,9 @@ class WriterWatch {
   static void OnChange(dds_entity_t reader, dds_liveliness_changed_status_t status, void* watch);
 
   dds_listener_t* const listener_;
-  dds_entity_t guard_ = 0;
   std::mutex mutex_;
-  std::vector<WriterChange> changes_;  // guarded by mutex_
+  dds_entity_t guard_ = 0;             // guarded by mutex_
+  std::vector<WriterChange> changes_;  // likewise
 };
 
 }  // namespace collision::dds

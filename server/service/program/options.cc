@@ -41,7 +41,7 @@ it knows to the log.
 Exit codes:
    0  ended as asked (SIGTERM, SIGINT), or the command is done
    2  wrong command line
-  69  DDS is not available
+  69  DDS is not available, or the credentials do not hold
   70  a check has failed: a bug in collisiond, which the log describes
   71  memory, or another resource of the system, is exhausted
   74  a file or folder cannot be written or read, or is damaged: a recording (later than at the

@@ -36,13 +36,14 @@ class ContactReport final : public ContactObserver {
         simulated_(config.clock().kind() != v1::Clock::REAL_TIME),
         write_(std::move(write)) {}
 
+  void BeginStep(std::int64_t wall_ns) { wall_ns_ = wall_ns; }
   void TakeContact(const v1::CollisionEvent& contact) override;
-  void ContactsHaveLeft() override { measurements_.ContactsHaveLeft(); }
+  void ContactsHaveLeft() override {
+    measurements_.ContactsHaveLeft();
+    if (kept_ != nullptr) kept_->Write(wall_ns_);
+  }
   /// ContactSink::failure().
   std::string failure() const { return kept_ == nullptr ? "" : kept_->failure(); }
-  void EndStep(std::int64_t wall_ns) {
-    if (kept_ != nullptr) kept_->Write(wall_ns);
-  }
 
  private:
   /// Of so many contacts at most it is known that they were written. One whose place another took
@@ -52,6 +53,7 @@ class ContactReport final : public ContactObserver {
   Measurements& measurements_;
   ContactSink* const kept_;
   const bool simulated_;
+  std::int64_t wall_ns_ = 0;  ///< Of the step.
   const Write write_;
   std::array<std::uint64_t, kPlaces> written_{};  ///< Hashes of contacts, each at its place.
 };

@@ -12,8 +12,8 @@ LogOptions LogOptionsOf(const v1::Config& config) {
           .json = config.log_format() == v1::Config::JSON};
 }
 
-Reloaded Reloader::Reload() {
-  Reloaded reloaded{.accepted = true};
+Reloaded Reloader::Read() const {
+  Reloaded reloaded{.accepted = true, .config = in_force_};
   if (!load_) return reloaded;
   const ConfigResult loaded = load_();
   if (!loaded.ok()) return {.errors = loaded.errors};
@@ -24,7 +24,7 @@ Reloaded Reloader::Reload() {
     const std::string path(option.path);
     if (!CanChange(path)) {
       reloaded.unchanged.push_back(path);
-    } else if (SetValue(&in_force_, option, after)) {
+    } else if (SetValue(&reloaded.config, option, after)) {
       reloaded.changed.push_back(path + ": " + before + " -> " + after);
     }
   }

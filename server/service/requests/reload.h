@@ -26,6 +26,7 @@ struct Reloaded {
   /// Fields that differ from those in force and take a new start.
   std::vector<std::string> unchanged = {};
   std::vector<std::string> errors = {};  ///< Unless accepted: as of LoadConfig().
+  v1::Config config = {};                ///< If accepted: what is to be in force, for Commit().
 };
 
 /// Holds the configuration in force. One thread.
@@ -36,7 +37,11 @@ class Reloader {
   Reloader(v1::Config in_force, std::function<ConfigResult()> load)
       : in_force_(std::move(in_force)), load_(std::move(load)) {}
 
-  Reloaded Reload();
+  /// Reads it and compares; nothing changes before Commit().
+  Reloaded Read() const;
+
+  /// Once all that has changed is in force.
+  void Commit(v1::Config config) { in_force_ = std::move(config); }
 
   const v1::Config& in_force() const { return in_force_; }
 

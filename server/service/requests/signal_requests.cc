@@ -48,19 +48,19 @@ void SignalRequests::Fulfil() {
 }
 
 ReloadAnswer SignalRequests::Reload() {
-  const Reloaded reloaded = reloader_.Reload();
+  const Reloaded reloaded = reloader_.Read();
   for (const std::string& error : reloaded.errors) spdlog::error("not reloaded: {}", error);
   if (!reloaded.accepted) {
     spdlog::error("the configuration stays as it was");
     return ReloadAnswer::kRefused;
   }
-  const v1::Config& config = reloader_.in_force();
   try {
-    StartLogging(LogOptionsOf(config));
+    StartLogging(LogOptionsOf(reloaded.config));
   } catch (const std::exception& error) {
     spdlog::error("not reloaded: log_file: {}; the log stays where it was", error.what());
     return ReloadAnswer::kRefused;
   }
+  reloader_.Commit(reloaded.config);
   const std::string changed = Listed(reloaded.changed);
   spdlog::info("reloaded: {}", changed.empty() ? "nothing has changed" : changed);
   if (reloaded.unchanged.empty()) return ReloadAnswer::kDone;

@@ -114,6 +114,13 @@ TEST(NewestInputs, IsBounded) {
   const std::uint64_t left_out = newest.left_out();
   Take(From(1, Description("alpha", 0)), &newest);
   EXPECT_EQ(newest.left_out(), left_out);
+  // What has outgrown its room is not there in an older form.
+  v1::AgentDescription longer = Description("alpha", 0);
+  longer.set_agent_name(std::string(bound, 'x'));
+  const std::size_t size = newest.size();
+  Take(From(1, longer), &newest);
+  EXPECT_EQ(newest.size(), size - 1);
+  EXPECT_EQ(newest.left_out(), left_out + 1);
 }
 
 // Goal:   ever-new keys, written or removed, of names that nobody has take no memory, and what the

@@ -185,9 +185,9 @@ Authority Authority::Make(const std::string& folder, const SecuredWorld& world, 
   return authority;
 }
 
-std::string Authority::FolderOf(const Bearer& bearer) const {
+std::string Authority::FolderOf(const std::string& folder, const Bearer& bearer) {
   const std::string role = RoleText(bearer.role);
-  return folder_ + "/" + (bearer.role == DdsRole::kService ? role : role + "-" + bearer.name);
+  return folder + "/" + (bearer.role == DdsRole::kService ? role : role + "-" + bearer.name);
 }
 
 std::string Authority::Issue(const Bearer& bearer, const Period& period) const {

@@ -54,8 +54,10 @@ class Authority {
 
   const SecuredWorld& world() const { return world_; }
 
-  /// The folder of these credentials: "service", "simulator-alpha", "monitor-desk".
-  std::string FolderOf(const Bearer& bearer) const;
+  /// The folder of these credentials in that of an authority: "service", "simulator-alpha",
+  /// "monitor-desk".
+  static std::string FolderOf(const std::string& folder, const Bearer& bearer);
+  std::string FolderOf(const Bearer& bearer) const { return FolderOf(folder_, bearer); }
 
   /// Makes credentials, in a folder of their own that must not be there. Returns that folder.
   /// Their period ends with the authority's at the latest. Throws SigningError.

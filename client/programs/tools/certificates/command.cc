@@ -76,10 +76,10 @@ Authority AuthorityFor(const CertificateOptions& options, const CertificatePlace
   return *there;
 }
 
-void RefuseWhatIsThere(const Authority& authority, const std::vector<Bearer>& bearers) {
+void RefuseWhatIsThere(const std::string& of_authority, const std::vector<Bearer>& bearers) {
   std::vector<std::string> folders;
   for (const Bearer& bearer : bearers) {
-    const std::string folder = authority.FolderOf(bearer);
+    const std::string folder = Authority::FolderOf(of_authority, bearer);
     if (std::filesystem::exists(folder)) {
       throw SigningError(folder +
                          ": is there already, and is not written over: move it away to "
@@ -108,8 +108,8 @@ void Make(const CertificateOptions& options, const CertificatePlace& place) {
   if (bearers.empty()) {
     throw UsageError("nothing to make: --service, --simulator, --monitor or --operator");
   }
+  RefuseWhatIsThere(options.folder, bearers);
   const Authority authority = AuthorityFor(options, place);
-  RefuseWhatIsThere(authority, bearers);
   const std::int64_t now = Now();
   const Period period{now - kBeforehand, now + options.days * kDay};
   for (const Bearer& bearer : bearers) {

@@ -12,21 +12,23 @@ namespace {
 TEST(Reload, TakesWhatCanChangeAndNamesTheRest) {
   std::string text = "log_level: \"info\" agents_max: 10";
   Reloader reloader(ParseConfig(text, "f").config, [&text] { return ParseConfig(text, "f"); });
-  Reloaded reloaded = reloader.Reload();
+  Reloaded reloaded = reloader.Read();
   EXPECT_TRUE(reloaded.accepted);
   EXPECT_TRUE(reloaded.changed.empty() && reloaded.unchanged.empty());
 
   text = "log_level: \"debug\" agents_max: 20 pairs_max: 70";
-  reloaded = reloader.Reload();
+  reloaded = reloader.Read();
   EXPECT_TRUE(reloaded.accepted);
   EXPECT_EQ(reloaded.changed, std::vector<std::string>{"log_level: \"info\" -> \"debug\""});
   EXPECT_EQ(reloaded.unchanged, (std::vector<std::string>{"agents_max", "pairs_max"}));
+  EXPECT_EQ(reloader.in_force().log_level(), "info") << "not before it has been done";
+  reloader.Commit(reloaded.config);
   EXPECT_EQ(reloader.in_force().log_level(), "debug");
   EXPECT_EQ(reloader.in_force().agents_max(), 10u);
-  EXPECT_TRUE(reloader.Reload().changed.empty()) << "nothing is told twice";
+  EXPECT_TRUE(reloader.Read().changed.empty()) << "nothing is told twice";
 
   text = "log_level: \"loud\"";
-  reloaded = reloader.Reload();
+  reloaded = reloader.Read();
   EXPECT_FALSE(reloaded.accepted);
   ASSERT_EQ(reloaded.errors.size(), 1u);
   EXPECT_NE(reloaded.errors[0].find("f:1: log_level"), std::string::npos) << reloaded.errors[0];
@@ -35,7 +37,7 @@ TEST(Reload, TakesWhatCanChangeAndNamesTheRest) {
 
 TEST(Reload, WithoutAFileNothingChanges) {
   Reloader reloader(ParseConfig("", "").config, nullptr);
-  const Reloaded reloaded = reloader.Reload();
+  const Reloaded reloaded = reloader.Read();
   EXPECT_TRUE(reloaded.accepted);
   EXPECT_TRUE(reloaded.changed.empty() && reloaded.unchanged.empty());
 }

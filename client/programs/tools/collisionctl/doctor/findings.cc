@@ -426,6 +426,7 @@ std::string DoctorJson(const std::vector<Finding>& findings) {
                       .Text("matter", finding.matter)
                       .Text("what", finding.what)
                       .Text("advice", finding.advice)
+                      .Flag("is_note", finding.is_note)
                       .Json());
   }
   return JsonDocument("doctor").Add("findings", JsonArray(all)).Json();

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "tests/client/programs/tools/collisionctl/json/schema_check.h"
 #include "tests/client/programs/tools/collisionctl_fixture.h"
 
 namespace collision::client {
@@ -28,6 +29,8 @@ class FindingsTest : public CollisionctlTest {
     seen_.has_credentials = true;
   }
 
+  ~FindingsTest() override { EXPECT_EQ(ComplaintsAbout(documents_), "") << "of the schema"; }
+
   void AddService(std::uint64_t program, const std::string& addresses,
                   const std::string& world = "lab") {
     seen_.neighbours.programs[program] = {
@@ -41,7 +44,9 @@ class FindingsTest : public CollisionctlTest {
   std::vector<std::string> Matters() {
     monitor_.Poll(std::chrono::nanoseconds(0));
     std::vector<std::string> matters;
-    for (const Finding& finding : Findings(seen_, view_)) matters.push_back(finding.matter);
+    const std::vector<Finding> findings = Findings(seen_, view_);
+    for (const Finding& finding : findings) matters.push_back(finding.matter);
+    documents_.push_back(DoctorJson(findings));
     return matters;
   }
 
@@ -49,6 +54,9 @@ class FindingsTest : public CollisionctlTest {
 
   using Words = std::vector<std::string>;
   DoctorSeen seen_;
+
+ private:
+  std::vector<std::string> documents_;
 };
 
 TEST_F(FindingsTest, OfAServiceThatIsHeardNothingIsFound) {
@@ -189,7 +197,7 @@ TEST_F(FindingsTest, AnOpenNetworkIsNoted) {
 TEST_F(FindingsTest, HasADocument) {
   EXPECT_EQ(DoctorJson({{.matter = "no-service", .what = "none \"here\"", .advice = "start one"}}),
             R"({"schema":"collision/1","kind":"doctor","findings":[{"matter":"no-service",)"
-            R"("what":"none \"here\"","advice":"start one"}]})");
+            R"("what":"none \"here\"","advice":"start one","is_note":false}]})");
 }
 
 }  // namespace
