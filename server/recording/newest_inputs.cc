@@ -126,8 +126,7 @@ bool NewestInputs::IsPresent(const Key& key, const Kept& kept,
   if (kept.run != simulator.run) return false;
   if (kind == Kind::kClock) return simulator.is_in_time;
   if (kind != Kind::kDescription) return true;
-  const auto agent = simulator.agents.find(std::get<3>(key));
-  return agent != simulator.agents.end() && agent->second == kept.generation;
+  return std::ranges::binary_search(simulator.agents, std::pair(std::get<3>(key), kept.generation));
 }
 
 void NewestInputs::Keep(const std::map<std::uint64_t, PresentSimulator>& present) {

@@ -8,6 +8,8 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "idl/config.pb.h"
 #include "idl/messages.pb.h"
@@ -23,7 +25,8 @@ struct PresentSimulator {
   bool is_in_time = false;                               ///< Its clock counts.
   std::uint64_t states_seen = 0, descriptions_seen = 0;  ///< The highest sequences so far.
   std::uint64_t descriptions_sequence = 0;               ///< The highest of `agents`.
-  std::map<std::uint32_t, std::uint32_t> agents = {};    ///< Generations by slot.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> agents = {};  ///< Slots, ascending, and
+                                                                     ///< generations.
 };
 
 /// What the service knows between two steps that no input says again.

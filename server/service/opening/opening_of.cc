@@ -17,7 +17,7 @@ PresentSimulator PresentOf(const Simulator& simulator, const World& world) {
   simulator.agents().ForEachSlot([&](std::uint32_t slot) {
     const Agent* agent = simulator.agents().Find(slot);
     if (agent == nullptr) return;
-    present.agents.emplace(slot, agent->generation());
+    present.agents.emplace_back(slot, agent->generation());
     present.descriptions_sequence =
         std::max(present.descriptions_sequence, agent->description_sequence);
   });

@@ -36,7 +36,7 @@ int main(int count, char** arguments) {
   ServiceSettings settings;
   std::string contestant, world;
   ServiceFolders folders;
-  settings.AddTo(&app, "fewer agents and repetitions: less than 20 s",
+  settings.AddTo(&app, "fewer agents and repetitions: less than 30 s",
                  "only cells whose name PART/WHAT contains this");
   app.add_option("--domain", settings.domain, "DDS domain")->check(CLI::Range(0, 230));
   app.add_option("--serve", contestant, "")->group("");  // the child's side

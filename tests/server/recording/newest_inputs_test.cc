@@ -41,7 +41,8 @@ v1::Input Ready(const std::string& hash) {
   return input;
 }
 
-std::map<std::uint64_t, PresentSimulator> Alpha(std::map<std::uint32_t, std::uint32_t> agents) {
+std::map<std::uint64_t, PresentSimulator> Alpha(
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> agents) {
   return {{SimulatorId("alpha"),
            {.sender = 1, .run = 1, .is_in_time = true, .agents = std::move(agents)}}};
 }
