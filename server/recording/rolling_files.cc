@@ -107,8 +107,9 @@ std::vector<wire::KeptFile> RollingFiles::FormerFiles() const {
   std::erase_if(files, [this](const wire::KeptFile& file) {
     return file.place() != place_.world_and_domain || (is_open() && file.path == path_);
   });
-  std::ranges::stable_partition(
-      files, [this](const wire::KeptFile& file) { return file.begin_ns - kFuture > looked_ns_; });
+  std::stable_partition(files.begin(), files.end(), [this](const wire::KeptFile& file) {
+    return file.begin_ns - kFuture > looked_ns_;
+  });
   return files;
 }
 
