@@ -20,11 +20,14 @@ constexpr std::int64_t kRetryAfter = 60'000'000'000;  // [ns]
 
 }  // namespace
 
-ContactJournal::ContactJournal(const RollingPlace& place, std::int64_t wall_ns)
-    : file_bytes_max_(place.bytes_max / kFiles), files_(place) {
+ContactJournal::ContactJournal(const RollingPlace& place)
+    : place_(place), file_bytes_max_(place.bytes_max / kFiles), files_(place) {}
+
+void ContactJournal::Start(std::int64_t wall_ns) {
+  has_started_ = true;
   std::optional<wire::KeptFile> newest;
-  for (const wire::KeptFile& file : wire::KeptFilesIn(place.folder, place.suffix)) {
-    if (file.place() == place.world_and_domain) newest = file;
+  for (const wire::KeptFile& file : wire::KeptFilesIn(place_.folder, place_.suffix)) {
+    if (file.place() == place_.world_and_domain) newest = file;
   }
   if (newest && newest->bytes < file_bytes_max_) GoOn(*newest);
   if (!files_.is_open() && !Begin(wall_ns)) Fail(wall_ns);
@@ -64,7 +67,7 @@ bool ContactJournal::Begin(std::int64_t wall_ns) {
 void ContactJournal::Add(const v1::CollisionEvent& contact) { told_.push_back(contact); }
 
 void ContactJournal::Write(std::int64_t wall_ns) {
-  if (told_.empty()) return;
+  if (told_.empty() || !has_started_) return;
   std::string bytes;
   for (v1::CollisionEvent& contact : std::exchange(told_, {})) {
     v1::RecordingEntry entry;

@@ -19,7 +19,10 @@ namespace collision::server {
 class ContactJournal final : public ContactSink {
  public:
   /// A file has at most an eighth of `place.bytes_max`.
-  ContactJournal(const RollingPlace& place, std::int64_t wall_ns);
+  explicit ContactJournal(const RollingPlace& place);
+
+  /// Opens or begins a file; before that nothing is touched, nor kept.
+  void Start(std::int64_t wall_ns);
 
   void Add(const v1::CollisionEvent& contact) override;
   void Write(std::int64_t wall_ns) override;
@@ -31,10 +34,12 @@ class ContactJournal final : public ContactSink {
   bool Begin(std::int64_t wall_ns);
   void Fail(std::int64_t wall_ns);
 
+  const RollingPlace place_;
   const std::uint64_t file_bytes_max_;
   RollingFiles files_;
   std::vector<v1::CollisionEvent> told_;  ///< In this step.
-  std::int64_t retry_ns_ = 0;             ///< Wall time.
+  bool has_started_ = false;
+  std::int64_t retry_ns_ = 0;  ///< Wall time.
   std::string failure_;
 };
 

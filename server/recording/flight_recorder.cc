@@ -6,6 +6,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -37,10 +38,9 @@ struct FlightRecorder::Shared {
 
   Shared(RollingPlace place, SegmentLimits limits, const v1::Config& config,
          const ClaimOptions& claim, std::int64_t wall_ns)
-      : bytes_max(limits.queue_bytes),
-        missed(NewestBytesMax(config), true),
-        segments(std::move(place), limits, config, claim, wall_ns),
-        failure(segments.failure()) {}
+      : bytes_max(limits.queue_bytes), missed(NewestBytesMax(config), true), make_segments([=] {
+          return std::make_unique<Segments>(place, limits, config, claim, wall_ns);
+        }) {}
 
   const std::uint64_t bytes_max;
   std::mutex mutex;
@@ -49,9 +49,9 @@ struct FlightRecorder::Shared {
   std::uint64_t bytes = 0;
   bool misses = false;  ///< Batches are left out, until the thread has written all others.
   NewestInputs missed;  ///< Their newest inputs.
-  bool ends = false, has_ended = false;
+  bool starts = false, has_begun = false, ends = false, has_ended = false;
   bool has_given_up = false;  ///< The thread has failed: nothing is recorded any more.
-  Segments segments;          ///< The thread's.
+  const std::function<std::unique_ptr<Segments>()> make_segments;
   std::string failure;
   std::atomic<bool> wants_opening = false, wants_census = false;
 };
@@ -90,8 +90,17 @@ FlightRecorder::~FlightRecorder() {
                shared_->queue.size());
 }
 
+void FlightRecorder::Start() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->starts = true;
+  shared_->changed.notify_all();
+  shared_->changed.wait_for(lock, kFlightEndPatience,
+                            [&] { return shared_->has_begun || shared_->has_ended; });
+}
+
 void FlightRecorder::WaitUntilWritten() {
   std::unique_lock lock(shared_->mutex);
+  if (!shared_->starts) return;
   shared_->changed.wait_for(lock, kFlightEndPatience, [&] { return shared_->bytes == 0; });
 }
 
@@ -126,14 +135,22 @@ void FlightRecorder::Take(std::shared_ptr<const v1::RecordedBatch> batch,
 void FlightRecorder::Write(const std::shared_ptr<Shared>& shared) {
   Shared& all = *shared;
   std::unique_lock lock(all.mutex);
-  for (;;) {
+  all.changed.wait(lock, [&] { return all.ends || all.starts; });
+  std::unique_ptr<Segments> segments;
+  if (all.starts) {
+    segments = all.make_segments();
+    all.failure = segments->failure();
+    all.has_begun = true;
+    all.changed.notify_all();
+  }
+  while (segments) {
     all.changed.wait(lock, [&] { return all.ends || all.misses || !all.queue.empty(); });
     if (all.ends && all.queue.empty()) break;
     if (all.queue.empty()) {
       NewestInputs missed = std::exchange(all.missed, NewestInputs(all.missed.bytes_max(), true));
       all.misses = false;
       lock.unlock();
-      all.segments.Miss(&missed);
+      segments->Miss(&missed);
       lock.lock();
       continue;
     }
@@ -141,22 +158,22 @@ void FlightRecorder::Write(const std::shared_ptr<Shared>& shared) {
     lock.unlock();
     std::uint64_t written = 0;
     for (const Shared::Item& item : items) {
-      all.segments.Take(*item.batch, item.opening);
+      segments->Take(*item.batch, item.opening);
       written += item.bytes;
     }
-    all.segments.Flush();
+    segments->Flush();
     lock.lock();
     all.bytes -= written;
     all.changed.notify_all();
-    all.failure = all.segments.failure();
+    all.failure = segments->failure();
     // One that is on its way is not asked for again.
     const auto brings_one = [](const Shared::Item& item) { return item.opening.has_value(); };
     const bool comes = std::ranges::any_of(all.queue, brings_one);
-    all.wants_opening = all.segments.wants_opening() && !comes;
-    all.wants_census = all.segments.wants_census() && !comes;
+    all.wants_opening = segments->wants_opening() && !comes;
+    all.wants_census = segments->wants_census() && !comes;
   }
   lock.unlock();
-  all.segments.End();
+  if (segments) segments->End();
   lock.lock();
   all.has_ended = true;
   all.changed.notify_all();

@@ -52,6 +52,10 @@ class FlightRecorder final : public FlightSink {
                  const ClaimOptions& claim, std::int64_t wall_ns);
   /// Waits until all is written, at most kFlightEndPatience.
   ~FlightRecorder() override;
+
+  /// Begins to write what it has taken so far; before that no file is touched. Waits until a file
+  /// is there or cannot be made, at most kFlightEndPatience. Any thread.
+  void Start();
   FlightRecorder(const FlightRecorder&) = delete;
   FlightRecorder& operator=(const FlightRecorder&) = delete;
 

@@ -113,6 +113,7 @@ bool SegmentChain::NextRun(const std::function<void(const std::string& cause)>& 
     const Segment& one = segments_[next_++];
     if (range_.until_ns && one.begin_ns > *range_.until_ns) continue;
     try {
+      is_first_run_ = reader_ == nullptr;
       reader_ = std::make_unique<RecordingReader>(one.path);
       skips_opening_ = false;
       return true;

@@ -34,6 +34,11 @@ class SegmentChain final : public BatchSource {
   /// are passed over, and told to `skipped`. False: there is none before `until_ns`.
   bool NextRun(const std::function<void(const std::string& cause)>& skipped);
 
+  /// The run does not begin with a start of the service, though no `from_ns` asked for that.
+  bool begins_behind_a_gap() const {
+    return reader_->segment() > 1 && !(range_.from_ns && is_first_run_);
+  }
+
   /// Of the first segment of the run.
   const v1::Config& config() const { return reader_->config(); }
   const ClaimOptions& claim() const { return reader_->claim(); }
@@ -66,6 +71,7 @@ class SegmentChain final : public BatchSource {
   std::size_t next_ = 0;           ///< Index of the segment behind the one that is read.
   std::unique_ptr<RecordingReader> reader_;
   bool skips_opening_ = false;
+  bool is_first_run_ = false;
 };
 
 }  // namespace collision::server

@@ -192,6 +192,7 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
   bool ready = false;
   while (daemon.Step()) {
     if (!ready && daemon.claim().works()) {
+      if (parts.on_work) parts.on_work();
       service_manager.Ready();
       ready = true;
     }

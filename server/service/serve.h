@@ -35,6 +35,7 @@ struct ServiceParts {
   JournalParts journal = {};
   Quarantine* quarantine = nullptr;
   ClaimOptions claim = {};
+  std::function<void()> on_work = nullptr;  ///< Called once, when it serves or stands by.
   /// Reads the configuration again, as the start did; null: there is no file.
   std::function<ConfigResult()> load_config = nullptr;
 };

@@ -52,6 +52,7 @@ TEST(FlightRecorder, WhatAKilledServiceSawIsReplayedAndWhatItToldIsListed) {
   // As a kill within a write leaves it.
   std::ofstream(segments.back(), std::ios::binary | std::ios::app) << "\x20 cut";
   daemon = world.StartDaemon();
+  EXPECT_TRUE(daemon->WaitForOutput("flight recorder: "));
   EXPECT_GT(SegmentsOf(world).size(), segments.size()) << "a start begins a segment";
 
   // Both starts are replayed, though the first one's last segment is cut, and one file holds
@@ -96,6 +97,7 @@ TEST(FlightRecorder, ItNeverEndsTheService) {
   std::ofstream(world.folder().Path("state") + "/recordings") << "in the way";
   std::ofstream(world.folder().Path("state") + "/contacts") << "in the way";
   const auto daemon = world.StartDaemon();
+  EXPECT_TRUE(daemon->WaitForOutput("flight recorder: "));
   EXPECT_TRUE(Contains(daemon->err(), "state/recordings: cannot be written: ")) << daemon->err();
   EXPECT_TRUE(Contains(daemon->err(), "state/contacts: cannot be written: ")) << daemon->err();
   for (const char* what : {"to keep the flight recorder", "to keep its contacts"})

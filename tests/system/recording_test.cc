@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -122,6 +123,22 @@ TEST(Recording, WhatIsCutOffIsReplayedAsFarAsItGoes) {
   EXPECT_EQ(replay.status, 74);
   EXPECT_EQ(EventLogLine(replay.err), "event log: 0 events, hash cbf29ce484222325");
   EXPECT_TRUE(replay.err.ends_with(": cut off\n")) << replay.err;
+}
+
+// Goal:   a service that is refused the world, and may be started again and again, replaces nothing
+//         of what earlier ones have kept.
+TEST(Recording, AServiceThatIsRefusedReplacesNothing) {
+  TestWorld world(135);
+  const auto daemon = world.StartDaemon();
+  const std::string file = world.folder().Write("run.rec", "of earlier");
+  world.SetStateFolder(world.folder().Path("other"));
+  EXPECT_EQ(world.LaunchDaemon({"--record", file})->WaitForExit(), 75);
+  std::string kept;
+  std::getline(std::ifstream(file), kept);
+  EXPECT_EQ(kept, "of earlier");
+  for (const char* after : {".1", ".new"}) EXPECT_FALSE(std::filesystem::exists(file + after));
+  for (const char* folder : {"other/recordings", "other/contacts"})
+    EXPECT_FALSE(std::filesystem::exists(world.folder().Path(folder))) << folder;
 }
 
 }  // namespace

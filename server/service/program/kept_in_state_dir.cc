@@ -27,13 +27,20 @@ RollingPlace PlaceIn(const v1::Config& config, const char* folder, const char* s
 
 }  // namespace
 
+void KeptInStateDir::Start() const {
+  if (contacts) contacts->Start(WallNow());
+  if (!flight) return;
+  flight->Start();
+  spdlog::info("flight recorder: {}", about_flight);
+}
+
 KeptInStateDir OpenKept(const v1::Config& config, const ClaimOptions& claim) {
   KeptInStateDir kept;
   if (config.state_dir().empty()) return kept;
   if (config.contacts_mb_max() > 0) {
     RollingPlace place = PlaceIn(config, wire::kContactsFolder, wire::kContactsSuffix);
     place.bytes_max = config.contacts_mb_max() * kMegabyte;
-    kept.contacts = std::make_unique<ContactJournal>(place, WallNow());
+    kept.contacts = std::make_unique<ContactJournal>(place);
   }
   if (config.recorder_mb_max() == 0) return kept;
   RollingPlace place = PlaceIn(config, wire::kRecordingsFolder, wire::kRecordingSuffix);
@@ -42,7 +49,8 @@ KeptInStateDir OpenKept(const v1::Config& config, const ClaimOptions& claim) {
   const SegmentLimits limits{
       .bytes = std::min(config.recorder_segment_mb() * kMegabyte, place.bytes_max / kSegmentsLeast),
       .age_ns = ToNanoseconds(config.recorder_segment_s())};
-  spdlog::info("flight recorder: {}, at most {} MB", place.folder, config.recorder_mb_max());
+  kept.about_flight =
+      place.folder + ", at most " + std::to_string(config.recorder_mb_max()) + " MB";
   kept.flight = std::make_unique<FlightRecorder>(place, limits, config, claim, WallNow());
   return kept;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "idl/config.pb.h"
 #include "server/claim/service_claim.h"
@@ -14,6 +15,10 @@ namespace collision::server {
 struct KeptInStateDir {
   std::unique_ptr<FlightRecorder> flight;
   std::unique_ptr<ContactJournal> contacts;
+  std::string about_flight = {};  ///< For the log: where, and how much.
+
+  /// Once the service works: before that neither touches a file.
+  void Start() const;
 };
 
 /// A segment has at most so much of all that may be kept: the oldest to go is not the only one.

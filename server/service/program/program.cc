@@ -29,6 +29,7 @@
 #include "server/service/daemon.h"
 #include "server/service/program/calibrate.h"
 #include "server/service/program/kept_in_state_dir.h"
+#include "server/service/program/recording_file.h"
 #include "server/service/requests/reload.h"
 #include "server/service/serve.h"
 #include "server/shapes/tree_cache.h"
@@ -196,14 +197,6 @@ ConfigResult LoadAgain(const Options& options) {
   return refused;
 }
 
-/// Null if `file` is empty: nothing is recorded.
-std::unique_ptr<RecordingWriter> MakeRecorder(const std::string& file, const v1::Config& config,
-                                              const ClaimOptions& claim) {
-  if (file.empty()) return nullptr;
-  KeepFormerRecordings(file);
-  return std::make_unique<RecordingWriter>(file, config, claim);
-}
-
 /// As a reload reads it.
 std::function<ConfigResult()> LoaderOf(const Options& options) {
   return [options] {
@@ -250,11 +243,10 @@ std::optional<int> ServeOnce(const v1::Config& config, const Options& options, b
   } catch (const std::runtime_error& error) {
     return Fail(kExitUnavailable, error.what());
   }
-  // Behind all that can fail: a service that does not come up, and is started again and again, is
-  // not to replace what earlier ones have kept.
+  RecordingFile recording(options.record_file);
   std::unique_ptr<RecordingWriter> recorder;
   try {
-    recorder = MakeRecorder(options.record_file, config, claim);
+    recorder = recording.Open(config, claim);
   } catch (const std::runtime_error& error) {
     return Fail(kExitFile, error.what());
   }
@@ -270,6 +262,11 @@ std::optional<int> ServeOnce(const v1::Config& config, const Options& options, b
                             .failure = std::move(state_failure)},
                 .quarantine = quarantine.get(),
                 .claim = claim,
+                .on_work =
+                    [&] {
+                      recording.Keep();
+                      kept.Start();
+                    },
                 .load_config = LoaderOf(options)});
 }
 
@@ -360,6 +357,10 @@ std::optional<int> RefusalOfConfig(const SegmentChain& chain) {
 int Replay(const Options& options) {
   StartLogging({.level = options.log_level.value_or("info")});  // not where the recorded run logged
   const ReplayRange range{.from_ns = options.from_ns, .until_ns = options.until_ns};
+  if (range.from_ns && range.until_ns && *range.until_ns < *range.from_ns) {
+    return Fail(kExitUsage, "--until " + wire::UtcText(*range.until_ns) +
+                                ": allowed: a time after --from, " + wire::UtcText(*range.from_ns));
+  }
   std::unique_ptr<SegmentChain> chain;
   try {
     chain = std::make_unique<SegmentChain>(options.replay_file, range);
@@ -370,6 +371,11 @@ int Replay(const Options& options) {
   const auto note = [&code](int result) { code = code == kExitOk ? result : code; };
   const auto skipped = [&note](const std::string& cause) { note(Fail(kExitFile, cause)); };
   while (std::cout && chain->NextRun(skipped)) {
+    if (chain->begins_behind_a_gap()) {
+      spdlog::warn(
+          "{}: begins in the middle of a start of the service: what came before is missing",
+          chain->path());
+    }
     const std::optional<int> refused = RefusalOfConfig(*chain);
     note(refused ? *refused : Replay(*chain, range));
   }

@@ -36,6 +36,7 @@ void ServeOurs(const std::string& world, std::uint32_t domain, const ServiceFold
   config.set_state_dir(folders.state);
   config = server::CompleteConfig(config);
   const server::KeptInStateDir kept = server::OpenKept(config, {});
+  kept.Start();
   server::DdsBus bus(world, domain, {.credentials = folders.credentials});
   server::SystemClock clock;
   server::Daemon daemon(config, bus, clock,

@@ -57,17 +57,20 @@ class ContactJournalTest : public testing::Test {
 
 TEST_F(ContactJournalTest, GoesOnAfterAStartAndCutsOffADamagedTail) {
   {
-    ContactJournal journal(Place(1 << 20), 1);
+    ContactJournal journal(Place(1 << 20));
+    journal.Start(1);
     Tell(&journal, 1);
     Tell(&journal, 2);
   }
   const std::string path = Files().at(0).path;
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 3);
   {
-    ContactJournal journal(Place(1 << 20), 1);
+    ContactJournal journal(Place(1 << 20));
+    journal.Start(1);
     Tell(&journal, 3);
     EXPECT_EQ(journal.failure(), "");
-    ContactJournal beside(Place(1 << 20), 1);  // a standby, or a service that is about to end
+    ContactJournal beside(Place(1 << 20));
+    beside.Start(1);  // a standby, or a service that is about to end
     Tell(&beside, 4);
   }
   EXPECT_EQ(Files().size(), 2u);
@@ -77,7 +80,8 @@ TEST_F(ContactJournalTest, GoesOnAfterAStartAndCutsOffADamagedTail) {
 // Goal:   damage in the middle costs what is damaged, and nothing behind it is written over.
 TEST_F(ContactJournalTest, AFileThatIsDamagedInTheMiddleStaysAsItIs) {
   {
-    ContactJournal journal(Place(1 << 20), 1);
+    ContactJournal journal(Place(1 << 20));
+    journal.Start(1);
     for (std::uint64_t number = 1; number <= 9; ++number) Tell(&journal, number);
   }
   const std::string path = Files().at(0).path;
@@ -86,14 +90,16 @@ TEST_F(ContactJournalTest, AFileThatIsDamagedInTheMiddleStaysAsItIs) {
       .seekp(static_cast<std::streamoff>(bytes / 2))
       .put('\x7f')
       .put('\x7f');
-  ContactJournal journal(Place(1 << 20), 2'000'000'000);
+  ContactJournal journal(Place(1 << 20));
+  journal.Start(2'000'000'000);
   Tell(&journal, 10);
   EXPECT_EQ(Files().size(), 2u);
   EXPECT_EQ(std::filesystem::file_size(path), bytes);
 }
 
 TEST_F(ContactJournalTest, TheOldestGo) {
-  ContactJournal journal(Place(16'000), 1);
+  ContactJournal journal(Place(16'000));
+  journal.Start(1);
   for (std::uint64_t number = 1; number <= 2000; ++number) Tell(&journal, number);
   std::uint64_t bytes = 0;
   for (const wire::KeptFile& file : Files()) bytes += file.bytes;
@@ -105,7 +111,8 @@ TEST_F(ContactJournalTest, TheOldestGo) {
 }
 
 TEST_F(ContactJournalTest, BeginsAnewWhereItsFileWasRemoved) {
-  ContactJournal journal(Place(1 << 20), 1);
+  ContactJournal journal(Place(1 << 20));
+  journal.Start(1);
   Tell(&journal, 1);
   std::filesystem::remove_all(folder_);
   Tell(&journal, 2);
@@ -115,7 +122,8 @@ TEST_F(ContactJournalTest, BeginsAnewWhereItsFileWasRemoved) {
 
 TEST_F(ContactJournalTest, WhatCannotBeWrittenIsTriedAgainAfterAMinute) {
   { std::ofstream(folder_) << "in the way"; }
-  ContactJournal journal(Place(1 << 20), 1);
+  ContactJournal journal(Place(1 << 20));
+  journal.Start(1);
   EXPECT_NE(journal.failure(), "");
   Tell(&journal, 1);
   std::filesystem::remove(folder_);

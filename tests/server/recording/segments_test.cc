@@ -351,6 +351,7 @@ TEST_F(SegmentsTest, ASlowDiskLeavesAGapThatIsTold) {
   {
     const SegmentLimits limits{.bytes = 20'000, .age_ns = kStart, .queue_bytes = 1};
     FlightRecorder recorder(Place(1 << 30), limits, config_, {.instance = 7}, kStart);
+    recorder.Start();
     for (int i = 0; i < kBatches; ++i) {
       auto batch = std::make_shared<v1::RecordedBatch>(Batch(i, 100));
       recorder.Take(batch, recorder.wants_opening() ? std::optional(OfAlpha()) : std::nullopt);

@@ -109,9 +109,12 @@ class Doctor {
     } else if (says("config:")) {
       Add("profile", cannot + profile + ": " + what,
           "correct that place of the profile; config/cyclonedds-lan.xml shows one");
-    } else if (says("credentials")) {
-      Add("credentials", cannot + ": " + what,
-          "make credentials with collisionctl make-certificates (docker/SECURITY.md)");
+    } else if (seen_.has_credentials || says("credentials")) {
+      Add("credentials", cannot + " with these credentials: " + what,
+          "take a folder that is whole, of one authority, for this world and domain, and of a "
+          "monitor "
+          "or an operator (or a simulator's made with --monitoring): collisionctl "
+          "make-certificates");
     } else {
       Add("dds", cannot + profile + ": " + what,
           "see whether another program has the ports from " +

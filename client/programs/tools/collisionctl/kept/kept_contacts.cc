@@ -24,7 +24,9 @@ void ReadFile(const wire::KeptFile& file, const WallRange& range,
   try {
     wire::EntryReader reader(file.path);
     v1::RecordingEntry entry;
+    bool is_journal = false;
     while (reader.Next(&entry)) {
+      is_journal |= entry.has_header() && entry.header().segment() == 0;
       const std::string refusal =
           entry.has_header() ? wire::RefusalOfFormat(entry.header()) : std::string();
       if (!refusal.empty()) return complain(file.path + ": " + refusal);
@@ -33,7 +35,9 @@ void ReadFile(const wire::KeptFile& file, const WallRange& range,
       if (entry.has_contact() && is_in) take(entry.contact());
     }
     // What a service writes at this moment ends anywhere.
-    if (!reader.error().empty() && !wire::IsInUse(file.path)) complain(reader.error());
+    if (wire::IsInUse(file.path)) return;
+    if (!reader.error().empty()) return complain(reader.error());
+    if (!is_journal) complain(file.path + ": byte 0: it is no journal of contacts");
   } catch (const std::exception& failure) {
     complain(failure.what());
   }
@@ -81,13 +85,20 @@ int PrintKeptContacts(const KeptOptions& options, const std::string& world, std:
   WallRange range;
   if (!options.since.empty()) range.since_ns = *WallTimeOf(options.since, now_ns);
   if (!options.until.empty()) range.until_ns = *WallTimeOf(options.until, now_ns);
+  if (range.until_ns < range.since_ns) {
+    std::cerr << "collisionctl: --until " << wire::UtcText(range.until_ns)
+              << ": allowed: a time after --since, " << wire::UtcText(range.since_ns) << '\n';
+    return kExitUsage;
+  }
   WorldView view;
   const auto hear = view.Callbacks().event;
   EventPrinter printer(format, filter, &std::cout);
   TakeOvers take_overs;
   const std::string folder = StateFolder(options, world);
-  const auto complain = [](const std::string& line) {
+  bool is_whole = true;
+  const auto complain = [&is_whole](const std::string& line) {
     std::cerr << "collisionctl: " << line << '\n';
+    is_whole = false;
   };
   const std::size_t files = ReadContacts(
       folder, world + "." + std::to_string(domain), range,
@@ -108,9 +119,8 @@ int PrintKeptContacts(const KeptOptions& options, const std::string& world, std:
              std::to_string(domain) + " is in it; --state-dir names the service's state_dir");
     return kExitRefused;
   }
-  if (std::cout) return kExitOk;
-  complain("the output cannot be written");
-  return kExitOutputFailed;
+  if (!std::cout) complain("the output cannot be written");
+  return is_whole ? kExitOk : kExitOutputFailed;
 }
 
 }  // namespace collision::client

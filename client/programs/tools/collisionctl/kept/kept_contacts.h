@@ -28,7 +28,7 @@ std::size_t ReadContacts(const std::string& state_folder, const std::string& pla
 
 /// Prints them as `events` prints what a service tells, each behind the time at which it was
 /// published (UTC). What another service told again when it took over is left out. Returns the exit
-/// code.
+/// code: kExitOutputFailed where something of the journal could not be read.
 int PrintKeptContacts(const KeptOptions& options, const std::string& world, std::uint32_t domain,
                       const EventFormat& format, EventFilter filter);
 

@@ -171,7 +171,7 @@ int PrintRecordings(const KeptOptions& options, const std::string& world, bool j
     std::cerr << "collisionctl: " << listed << ": " << failure << '\n';
     return kExitRefused;
   }
-  if (segments.empty() && !json) {
+  if (segments.empty()) {
     std::cerr << "collisionctl: " << folder << ": no recordings are in it (WORLD.DOMAIN.TIME"
               << wire::kRecordingSuffix << "); the service keeps them in its state_dir\n";
     return kExitRefused;

@@ -65,12 +65,13 @@ struct Failure {
 constexpr Failure kFailures[] = {
     {"to record", "recording_failure", "free space or choose another file, and start it again"},
     {"to keep the flight recorder", "flight_failure",
-     "free space in its state_dir; it tries again each minute"},
+     "see to its state_dir (space, rights); it tries again each minute"},
     {"to keep its contacts", "contacts_failure",
-     "free space in its state_dir; it tries again each minute"},
+     "see to its state_dir (space, rights); it tries again each minute"},
     {"to write its log", "log_failure",
      "free space, or name another log_file and reload: systemctl reload, collisiond --reload"},
-    {"to keep its journal", "state_failure", "make its folder writable, and start it again"},
+    {"to keep its journal", "state_failure",
+     "see to its folder (space, rights), and start it again"},
     {"over messages", "quarantine",
      "tell the maintainers, and remove the quarantine file while the service is down"}};
 

@@ -105,6 +105,7 @@ TEST_F(FindingsTest, CredentialsThatDoNotFitAreNamed) {
 
 // Goal:   where DDS does not start, the one thing that is wrong is named.
 TEST_F(FindingsTest, WhatKeepsDdsFromStartingIsNamed) {
+  seen_.has_credentials = false;
   seen_.failure = "DDS participant in domain 0: Error";
   EXPECT_EQ(Matters(), Words{"dds"});
   EXPECT_NE(Page().find(seen_.failure), std::string::npos) << Page();
@@ -117,6 +118,9 @@ TEST_F(FindingsTest, WhatKeepsDdsFromStartingIsNamed) {
   seen_.failure_lines = "config: //CycloneDDS/Domain: Foo: unknown element";
   EXPECT_NE(Page().find("correct that place"), std::string::npos) << Page();
   seen_.failure_lines = "credentials: /nowhere: there is no such folder";
+  EXPECT_EQ(Matters(), Words{"credentials"});
+  seen_.has_credentials = true;
+  seen_.failure_lines = "Could not find domain 4 in governance(code: 141)";
   EXPECT_EQ(Matters(), Words{"credentials"});
 }
 

@@ -66,10 +66,10 @@ class KeptFilesTest : public testing::Test {
     }
     v1::RecordingEntry header;
     header.mutable_header()->set_format(wire::kRecordingFormat);
-    header.mutable_header()->set_segment(1);
     std::string recording, contacts;
-    wire::AppendEntry(header, &recording);
     wire::AppendEntry(header, &contacts);
+    header.mutable_header()->set_segment(1);
+    wire::AppendEntry(header, &recording);
     for (int i = 0; i < 3; ++i) {
       v1::RecordingEntry batch, contact;
       batch.mutable_batch()->set_wall_ns(kNow + i * kSecond);
@@ -144,6 +144,11 @@ TEST_F(KeptFilesTest, ContactsAreListedOnceAndWithTheirTime) {
     event.set_status(v1::EVENT_CONFIRMED);
     wire::AppendEntry(entry, &bytes);
   }
+  v1::RecordingEntry header;
+  header.mutable_header()->set_format(wire::kRecordingFormat);
+  std::string head;
+  wire::AppendEntry(header, &head);
+  bytes.insert(0, head);
   Write("/contacts/lab.5.20260921T141320.000Z.contacts", bytes);
   KeptOptions options;
   options.state_dir = folder_;
@@ -154,8 +159,19 @@ TEST_F(KeptFilesTest, ContactsAreListedOnceAndWithTheirTime) {
     EXPECT_EQ(std::ranges::count(out, '\n'), 4) << out;
     EXPECT_NE(out.find("2026-09-21T14:13:21.000Z"), std::string::npos) << out;
     EXPECT_NE(out.find("2026-09-21T14:13:22.000Z"), std::string::npos) << out;
-    if (json) EXPECT_EQ(ComplaintsAbout({out.substr(0, out.find('\n'))}), "");
+    if (!json) continue;
+    EXPECT_EQ(ComplaintsAbout({out.substr(0, out.find('\n'))}), "");
   }
+  // What cannot be read is told, also by the exit code.
+  for (const std::string& damaged : {std::string(), bytes.substr(0, bytes.size() - 3)}) {
+    Write("/contacts/lab.5.20260921T141321.000Z.contacts", damaged);
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(PrintKeptContacts(options, "lab", 5, {}, {}), 74);
+    testing::internal::GetCapturedStdout();
+  }
+  options.since = "2026-09-22";
+  options.until = "2026-09-21";
+  EXPECT_EQ(PrintKeptContacts(options, "lab", 5, {}, {}), 2);
 }
 
 }  // namespace

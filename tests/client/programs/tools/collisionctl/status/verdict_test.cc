@@ -135,7 +135,7 @@ TEST_F(VerdictTest, TellsTheGravestFirst) {
   const char* starts[] = {"WAITS for beta: let it go on",
                           "FAILS to record, to keep its journal (standby 00000000000000ab): ",
                           "  to record: /r: cannot be written, at byte 7; free space",
-                          "  to keep its journal (standby 00000000000000ab): /k: full; make",
+                          "  to keep its journal (standby 00000000000000ab): /k: full; see to",
                           "REFUSES sim: ",
                           "HOLDS BACK: bad (held to its share of 1/2 for 3 s; 9 pairs wait)",
                           "NEARS A LIMIT: guest: agents 20 of 20",
