@@ -286,6 +286,39 @@ TEST_F(SegmentsTest, RunsAreToldApartByTheirHeaders) {
   EXPECT_NE(skipped.find("19990101T000000.000Z.rec"), std::string::npos) << skipped;
 }
 
+// Goal:   where the next segment of a start is missing, one of another start does not take its
+//         place, though it has the number.
+TEST_F(SegmentsTest, ARunEndsWhereItsNextSegmentIsMissing) {
+  const SegmentLimits limits{.bytes = 5'000, .age_ns = 1'000 * kSecondNs};
+  for (const std::uint64_t instance : {7, 8}) {
+    const int begin = instance == 7 ? 0 : 100;
+    Segments segments(Place(1 << 30), limits, config_, {.instance = instance},
+                      kStart + begin * kSecondNs);
+    for (int i = begin; i < begin + 40; ++i) {
+      Opening opening = OfAlpha();
+      opening.claim.instance = instance;
+      segments.Take(Batch(i), segments.wants_opening() ? std::optional(opening) : std::nullopt);
+      segments.Flush();
+    }
+    segments.End();
+  }
+  for (const wire::KeptFile& file : Files()) {
+    const RecordingReader reader(file.path);
+    const bool is_first = reader.claim().instance == 7;
+    if (is_first == (reader.segment() > 2)) std::filesystem::remove(file.path);
+  }
+  SegmentChain chain(folder_, {});
+  const auto skip = [](const std::string& cause) { ADD_FAILURE() << cause; };
+  ASSERT_TRUE(chain.NextRun(skip));
+  EXPECT_FALSE(chain.begins_behind_a_gap());
+  std::int64_t last = 0;
+  while (const auto batch = chain.Next()) last = batch->inputs(0).simulator_clock().clock_ns();
+  EXPECT_LT(last, 40);
+  ASSERT_TRUE(chain.NextRun(skip));
+  EXPECT_EQ(chain.claim().instance, 8u);
+  EXPECT_TRUE(chain.begins_behind_a_gap());
+}
+
 // Goal:   a replay from a time begins with the segment that has it, though another service has
 //         begun one later.
 TEST_F(SegmentsTest, AReplayBeginsWithTheRunThatHasTheTime) {
@@ -358,6 +391,7 @@ TEST_F(SegmentsTest, ASlowDiskLeavesAGapThatIsTold) {
     }
   }
   std::int64_t last = -1;
+  bool continues = false;
   for (const wire::KeptFile& file : Files()) {
     RecordingReader reader(file.path);
     std::int64_t opened = -1;
@@ -365,6 +399,7 @@ TEST_F(SegmentsTest, ASlowDiskLeavesAGapThatIsTold) {
       const std::int64_t clock = batch->inputs(0).simulator_clock().clock_ns();
       if (batch->opening()) {
         opened = clock;
+        EXPECT_TRUE(!continues || clock == last) << "nothing is missing where a segment says so";
         EXPECT_GE(clock, last);
         continue;
       }
@@ -373,6 +408,7 @@ TEST_F(SegmentsTest, ASlowDiskLeavesAGapThatIsTold) {
       last = clock;
     }
     EXPECT_EQ(reader.error(), "");
+    continues = reader.continues();
   }
 }
 
