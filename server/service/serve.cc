@@ -154,6 +154,15 @@ std::optional<int> FailureAtTheEnd(const v1::Config& config, const Daemon& daemo
   return std::nullopt;
 }
 
+/// Whether it works now, which is told.
+bool BecomesReady(const Daemon& daemon, const std::function<void()>& on_work,
+                  ServiceNotifier* service_manager) {
+  if (!daemon.claim().works()) return false;
+  if (on_work) on_work();
+  service_manager->Ready();
+  return true;
+}
+
 std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   SystemClock clock([&bus] { bus.Wake(); });
   RecordingWriter* const recorder = parts.recorder;
@@ -191,11 +200,7 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
   WaitForWallClock(config, signals, &service_manager);
   bool ready = false;
   while (daemon.Step()) {
-    if (!ready && daemon.claim().works()) {
-      if (parts.on_work) parts.on_work();
-      service_manager.Ready();
-      ready = true;
-    }
+    ready = ready || BecomesReady(daemon, parts.on_work, &service_manager);
     requests.Fulfil();
     const auto now = std::chrono::steady_clock::now();
     service_manager.Alive(now);
