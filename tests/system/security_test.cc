@@ -45,6 +45,17 @@ TEST(Security, CredentialsAreAddedToAWorldAndNothingIsWrittenOver) {
   EXPECT_EQ(other.status, 2);
   EXPECT_TRUE(Contains(other.err, "is of world \"lab\" on DDS domain 5")) << other.err;
   EXPECT_EQ(make({"--monitor", "*"}).status, 2);
+  const Folder another;
+  EXPECT_EQ(
+      RunToEnd({Program("collisionctl"), "make-certificates", another.Path("ca"), "--service"})
+          .status,
+      0);
+  fs::copy_file(another.Path("ca/authority/identity_ca.key"),
+                folder.Path("ca/authority/identity_ca.key"), fs::copy_options::overwrite_existing);
+  const Outcome damaged = make({"--monitor", "desk"});
+  EXPECT_EQ(damaged.status, 74);
+  EXPECT_TRUE(Contains(damaged.err, "authority/identity_ca.key, ")) << damaged.err;
+  EXPECT_FALSE(fs::exists(folder.Path("ca/monitor-desk")));
   for (const char* key : {"ca/simulator-alpha/identity.key", "ca/authority/identity_ca.key",
                           "ca/authority/permissions_ca.key"}) {
     EXPECT_EQ(fs::status(folder.Path(key)).permissions(),

@@ -120,6 +120,23 @@ SecuredWorld WorldIn(const std::string& path) {
   return world;
 }
 
+/// Throws SigningError, naming both files, if they do not belong together.
+KeyAndCertificate PairIn(const std::string& key, const std::string& certificate) {
+  KeyAndCertificate pair{Read(key), Read(certificate)};
+  try {
+    Sign(pair, "");
+  } catch (const SigningError& error) {
+    throw SigningError(key + ", " + certificate +
+                       ": one is damaged, or they do not belong together: " + error.what());
+  }
+  return pair;
+}
+
+/// What the world protects: of the same content whenever it is signed.
+std::string GovernanceOf(const KeyAndCertificate& permissions, const SecuredWorld& world) {
+  return Sign(permissions, dds::GovernanceXml(world.domain, world.protection));
+}
+
 const char* RoleText(DdsRole role) {
   switch (role) {
     case DdsRole::kService:
@@ -157,9 +174,9 @@ std::optional<Authority> Authority::Open(const std::string& folder) {
   if (!fs::exists(own)) return std::nullopt;
   Authority authority(folder);
   authority.world_ = WorldIn(own + kWorld);
-  authority.identity_ = {Read(own + kIdentityKey), Read(own + credentials::kIdentityCa)};
-  authority.permissions_ = {Read(own + kPermissionsKey), Read(own + credentials::kPermissionsCa)};
-  authority.governance_ = Read(own + credentials::kGovernance);
+  authority.identity_ = PairIn(own + kIdentityKey, own + credentials::kIdentityCa);
+  authority.permissions_ = PairIn(own + kPermissionsKey, own + credentials::kPermissionsCa);
+  authority.governance_ = GovernanceOf(authority.permissions_, authority.world_);
   return authority;
 }
 
@@ -172,8 +189,7 @@ Authority Authority::Make(const std::string& folder, const SecuredWorld& world, 
   authority.world_ = world;
   authority.identity_ = MakeAuthority({world.world, "authority", "identity"}, period);
   authority.permissions_ = MakeAuthority({world.world, "authority", "permissions"}, period);
-  authority.governance_ =
-      Sign(authority.permissions_, dds::GovernanceXml(world.domain, world.protection));
+  authority.governance_ = GovernanceOf(authority.permissions_, world);
   NewFolder own(folder + "/" + kFolder);
   own.Add(kIdentityKey, authority.identity_.key, kForOwner);
   own.Add(credentials::kIdentityCa, authority.identity_.certificate);

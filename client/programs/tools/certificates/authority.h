@@ -38,7 +38,7 @@ struct Bearer {
 ///
 ///   identity_ca.key, identity_ca.pem        who signs certificates
 ///   permissions_ca.key, permissions_ca.pem  who signs the documents
-///   governance.p7s                          what the world protects
+///   governance.p7s                          what the world protects; signed anew for each bearer
 ///   world                                   its name, domain and protection
 ///
 /// Whoever has the keys can let anybody in: they belong to no host on which programs run. Private
