@@ -21,13 +21,14 @@ constexpr std::int64_t kRetryAfter = 60'000'000'000;  // [ns]
 }  // namespace
 
 ContactJournal::ContactJournal(const RollingPlace& place)
-    : place_(place), file_bytes_max_(place.bytes_max / kFiles), files_(place) {}
+    : file_bytes_max_(place.bytes_max / kFiles), files_(place) {}
 
 void ContactJournal::Start(std::int64_t wall_ns) {
   has_started_ = true;
   std::optional<wire::KeptFile> newest;
-  for (const wire::KeptFile& file : wire::KeptFilesIn(place_.folder, place_.suffix)) {
-    if (file.place() == place_.world_and_domain) newest = file;
+  const RollingPlace& place = files_.place();
+  for (const wire::KeptFile& file : wire::KeptFilesIn(place.folder, place.suffix)) {
+    if (file.place() == place.world_and_domain) newest = file;
   }
   if (newest && newest->bytes < file_bytes_max_) GoOn(*newest);
   if (!files_.is_open() && !Begin(wall_ns)) Fail(wall_ns);

@@ -34,7 +34,6 @@ class ContactJournal final : public ContactSink {
   bool Begin(std::int64_t wall_ns);
   void Fail(std::int64_t wall_ns);
 
-  const RollingPlace place_;
   const std::uint64_t file_bytes_max_;
   RollingFiles files_;
   std::vector<v1::CollisionEvent> told_;  ///< In this step.

@@ -50,10 +50,10 @@ void KeepFormerRecordings(const std::string& file) {
 }
 
 RecordingWriter::RecordingWriter(const std::string& path, const v1::Config& config,
-                                 const ClaimOptions& claim)
-    : path_(path) {
+                                 const ClaimOptions& claim, const std::string& name)
+    : path_(name.empty() ? path : name) {
   file_ = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file_ < 0) throw std::runtime_error(path + ": cannot be written: " + CauseOf(errno));
+  if (file_ < 0) throw std::runtime_error(path_ + ": cannot be written: " + CauseOf(errno));
   if (Write(HeaderOf(config, claim, 0))) return;
   close(file_);
   throw std::runtime_error(error_);

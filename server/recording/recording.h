@@ -45,10 +45,10 @@ void KeepFormerRecordings(const std::string& file);
 /// One thread, except for HoldWrites().
 class RecordingWriter final : public BatchSink {
  public:
-  /// Replaces the file and writes the header; `config` is complete. Throws std::runtime_error if it
-  /// cannot.
-  RecordingWriter(const std::string& path, const v1::Config& config,
-                  const ClaimOptions& claim = {});
+  /// Replaces the file and writes the header; `config` is complete. Errors call it `name`; empty:
+  /// by its path. Throws std::runtime_error if it cannot.
+  RecordingWriter(const std::string& path, const v1::Config& config, const ClaimOptions& claim = {},
+                  const std::string& name = {});
   ~RecordingWriter() override;
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;

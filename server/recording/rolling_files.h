@@ -49,6 +49,7 @@ class RollingFiles {
 
   void Close();
 
+  const RollingPlace& place() const { return place_; }
   bool is_open() const { return file_ >= 0; }
   bool is_removed() const { return is_open() && IsRemoved(file_); }  ///< By somebody else.
   std::uint64_t bytes() const { return bytes_; }                     ///< Of the open file.

@@ -9,15 +9,7 @@ namespace collision::server {
 namespace {
 
 Scene Losses() {
-  const auto fill = [](Scenario* scenario) {
-    constexpr std::int64_t kEnd = 30 * kSecond;
-    Random random(42);
-    scenario->Add({.name = "alpha", .sender = 1, .period_ns = 120'000'000, .end_ns = kEnd},
-                  Crowd(16, kEnd, &random));
-    scenario->Add(
-        {.name = "beta", .sender = 2, .period_ns = 300'000'000, .end_ns = kEnd, .chunk_size = 8},
-        Crowd(16, kEnd, &random));
-  };
+  const auto fill = [](Scenario* scenario) { AddCrowds(30 * kSecond, scenario); };
   return {.name = "losses", .config = ConfigFor(2), .network = Lossy(5), .fill = fill};
 }
 

@@ -18,12 +18,7 @@ constexpr std::uint64_t kGoldenHash = 0x43b463d0ea575865;
 constexpr std::int64_t kEnd = 40 * kSecond;
 
 void RunGolden(Scenario* scenario, BatchSink* recorder) {
-  Random random(42);
-  scenario->Add({.name = "alpha", .sender = 1, .period_ns = 120'000'000, .end_ns = kEnd},
-                Crowd(16, kEnd, &random));
-  scenario->Add(
-      {.name = "beta", .sender = 2, .period_ns = 300'000'000, .end_ns = kEnd, .chunk_size = 8},
-      Crowd(16, kEnd, &random));
+  AddCrowds(kEnd, scenario);
   scenario->StartService(recorder);
   scenario->StartSimulators();
   scenario->Run();

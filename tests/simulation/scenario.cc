@@ -29,6 +29,15 @@ std::vector<SimulatedAgent> Crowd(int count, std::int64_t end_ns, Random* random
   return agents;
 }
 
+void AddCrowds(std::int64_t end_ns, Scenario* scenario) {
+  Random random(42);
+  scenario->Add({.name = "alpha", .sender = 1, .period_ns = 120'000'000, .end_ns = end_ns},
+                Crowd(16, end_ns, &random));
+  scenario->Add(
+      {.name = "beta", .sender = 2, .period_ns = 300'000'000, .end_ns = end_ns, .chunk_size = 8},
+      Crowd(16, end_ns, &random));
+}
+
 NetworkOptions Lossy(std::uint64_t seed) {
   return {.seed = seed, .loss = 0.05, .duplicate = 0.05, .delay_max_ns = 3'000'000};
 }

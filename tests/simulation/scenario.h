@@ -68,4 +68,7 @@ class Scenario {
   std::unique_ptr<Daemon> daemon_;
 };
 
+/// Two simulators, alpha and beta, with a Crowd() of 16 each; beta tells its states in chunks.
+void AddCrowds(std::int64_t end_ns, Scenario* scenario);
+
 }  // namespace collision::server

@@ -118,15 +118,6 @@ Replayed Replay(const std::string& path, const ReplayRange& range = {}) {
   return replayed;
 }
 
-void AddCrowd(Scenario* scenario) {
-  Random random(42);
-  scenario->Add({.name = "alpha", .sender = 1, .period_ns = 120'000'000, .end_ns = kEnd},
-                Crowd(16, kEnd, &random));
-  scenario->Add(
-      {.name = "beta", .sender = 2, .period_ns = 300'000'000, .end_ns = kEnd, .chunk_size = 8},
-      Crowd(16, kEnd, &random));
-}
-
 /// A body that told its shape and its state before all but the first segment, and balls that reach
 /// it one after the other. Ball by ball the two would touch a second earlier.
 void AddBodyAtRest(Scenario* scenario) {
@@ -182,7 +173,8 @@ class SegmentsOfARun : public testing::Test {
 };
 
 TEST_F(SegmentsOfARun, AReplayFromAnySegmentFindsTheContactsFromThereOn) {
-  const std::vector<std::string> paths = Record(60'000, AddCrowd);
+  const std::vector<std::string> paths =
+      Record(60'000, [](Scenario* scenario) { AddCrowds(kEnd, scenario); });
   ASSERT_GT(paths.size(), 8u);
   ASSERT_GT(live_.size(), 40u);
   for (std::size_t i = 0; i < paths.size(); i += 2) {

@@ -23,7 +23,8 @@ RecordingFile::~RecordingFile() {
 
 std::unique_ptr<RecordingWriter> RecordingFile::Open(const v1::Config& config,
                                                      const ClaimOptions& claim) const {
-  return file_.empty() ? nullptr : std::make_unique<RecordingWriter>(first_, config, claim);
+  if (file_.empty()) return nullptr;
+  return std::make_unique<RecordingWriter>(first_, config, claim, file_);
 }
 
 void RecordingFile::Keep() {

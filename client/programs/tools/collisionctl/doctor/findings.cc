@@ -112,8 +112,7 @@ class Doctor {
     } else if (seen_.has_credentials || says("credentials")) {
       Add("credentials", cannot + " with these credentials: " + what,
           "take a folder that is whole, of one authority, for this world and domain, and of a "
-          "monitor "
-          "or an operator (or a simulator's made with --monitoring): collisionctl "
+          "monitor, an operator, or a simulator made with --monitoring: collisionctl "
           "make-certificates");
     } else {
       Add("dds", cannot + profile + ": " + what,
