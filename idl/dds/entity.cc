@@ -10,7 +10,8 @@ dds_entity_t Check(dds_return_t result, const std::string& what) {
     throw std::runtime_error(what + ": not allowed by the permissions of these credentials");
   }
   throw std::runtime_error(what + ": " + dds_strretcode(result) +
-                           " (is the network interface of CYCLONEDDS_URI there?)");
+                           ": see what is said above of the network profile (CYCLONEDDS_URI) and "
+                           "its interface; collisionctl doctor tells more");
 }
 
 }  // namespace collision::dds

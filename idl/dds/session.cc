@@ -10,6 +10,7 @@
 #include "idl/credentials/end_watch.h"
 #include "idl/dds/conversion.h"
 #include "idl/dds/endpoints.h"
+#include "idl/dds/headroom.h"
 #include "idl/dds/intake.h"
 #include "idl/dds/security/credentials.h"
 #include "idl/dds/security/stranger_watch.h"
@@ -80,6 +81,7 @@ std::optional<dds::Credentials> CredentialsOf(const DdsSessionOptions& options) 
 dds_entity_t CreateParticipant(std::uint32_t domain,
                                const std::optional<dds::Credentials>& credentials,
                                const dds_listener_t* listener) {
+  dds::RequireHeadroom();
   const dds::Qos qos = dds::MakeQos();
   if (credentials) credentials->Apply(qos.get());
   const dds_entity_t made = dds_create_participant(domain, qos.get(), listener);

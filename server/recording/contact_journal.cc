@@ -13,15 +13,17 @@
 namespace collision::server {
 namespace {
 
-constexpr int kFiles = 8;
+/// The oldest file to go is not the only one.
+constexpr int kFilesLeast = 8;
 /// More than an entry has: what a kill has left of the last one is shorter.
 constexpr std::uint64_t kTailMax = 1 << 16;
 constexpr std::int64_t kRetryAfter = 60'000'000'000;  // [ns]
 
 }  // namespace
 
-ContactJournal::ContactJournal(const RollingPlace& place)
-    : file_bytes_max_(place.bytes_max / kFiles), files_(place) {}
+std::uint64_t ContactJournal::FileBytesMax() const {
+  return files_.place().limits.bytes_max / kFilesLeast;
+}
 
 void ContactJournal::Start(std::int64_t wall_ns) {
   has_started_ = true;
@@ -30,7 +32,7 @@ void ContactJournal::Start(std::int64_t wall_ns) {
   for (const wire::KeptFile& file : wire::KeptFilesIn(place.folder, place.suffix)) {
     if (file.place() == place.world_and_domain) newest = file;
   }
-  if (newest && newest->bytes < file_bytes_max_) GoOn(*newest);
+  if (newest && newest->bytes < FileBytesMax()) GoOn(*newest);
   if (!files_.is_open() && !Begin(wall_ns)) Fail(wall_ns);
 }
 
@@ -79,7 +81,7 @@ void ContactJournal::Write(std::int64_t wall_ns) {
   // A clock that was set back waits for no time that it has had.
   const bool waits = !failure_.empty() && wall_ns < retry_ns_ && wall_ns >= retry_ns_ - kRetryAfter;
   if (waits) return;
-  const bool begins = !files_.is_open() || files_.is_removed() || files_.bytes() >= file_bytes_max_;
+  const bool begins = !files_.is_open() || files_.is_removed() || files_.bytes() >= FileBytesMax();
   if ((begins && !Begin(wall_ns)) || !files_.Append(bytes, wall_ns)) return Fail(wall_ns);
   if (!std::exchange(failure_, {}).empty()) {
     spdlog::info("{}: contacts are kept again", files_.path());

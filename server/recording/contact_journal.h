@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "idl/messages.pb.h"
@@ -18,8 +19,10 @@ namespace collision::server {
 /// with the contacts of a minute later. Throws nothing. One thread.
 class ContactJournal final : public ContactSink {
  public:
-  /// A file has at most an eighth of `place.bytes_max`.
-  explicit ContactJournal(const RollingPlace& place);
+  explicit ContactJournal(RollingPlace place) : files_(std::move(place)) {}
+
+  /// As of RollingFiles.
+  void SetLimits(RollingLimits limits) { files_.SetLimits(limits); }
 
   /// Opens or begins a file; before that nothing is touched, nor kept.
   void Start(std::int64_t wall_ns);
@@ -30,11 +33,11 @@ class ContactJournal final : public ContactSink {
   const std::string& failure() const override { return failure_; }
 
  private:
+  std::uint64_t FileBytesMax() const;
   void GoOn(const wire::KeptFile& file);
   bool Begin(std::int64_t wall_ns);
   void Fail(std::int64_t wall_ns);
 
-  const std::uint64_t file_bytes_max_;
   RollingFiles files_;
   std::vector<v1::CollisionEvent> told_;  ///< In this step.
   bool has_started_ = false;

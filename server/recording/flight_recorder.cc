@@ -36,11 +36,16 @@ struct FlightRecorder::Shared {
     std::uint64_t bytes = 0;
   };
 
-  Shared(RollingPlace place, SegmentLimits limits, const v1::Config& config,
+  Shared(const RollingPlace& place, SegmentLimits limits, const v1::Config& config,
          const ClaimOptions& claim, std::int64_t wall_ns)
       : bytes_max(limits.queue_bytes), missed(NewestBytesMax(config), true), make_segments([=] {
           return std::make_unique<Segments>(place, limits, config, claim, wall_ns);
         }) {}
+
+  struct NewLimits {
+    RollingLimits all = {};
+    SegmentLimits segment = {};
+  };
 
   const std::uint64_t bytes_max;
   std::mutex mutex;
@@ -52,13 +57,15 @@ struct FlightRecorder::Shared {
   bool starts = false, has_begun = false, ends = false, has_ended = false;
   bool has_given_up = false;  ///< The thread has failed: nothing is recorded any more.
   const std::function<std::unique_ptr<Segments>()> make_segments;
+  std::optional<NewLimits> new_limits;  ///< Until the thread has taken them.
   std::string failure;
   std::atomic<bool> wants_opening = false, wants_census = false;
 };
 
-FlightRecorder::FlightRecorder(RollingPlace place, SegmentLimits limits, const v1::Config& config,
-                               const ClaimOptions& claim, std::int64_t wall_ns)
-    : shared_(std::make_shared<Shared>(std::move(place), limits, config, claim, wall_ns)) {
+FlightRecorder::FlightRecorder(const RollingPlace& place, SegmentLimits limits,
+                               const v1::Config& config, const ClaimOptions& claim,
+                               std::int64_t wall_ns)
+    : shared_(std::make_shared<Shared>(place, limits, config, claim, wall_ns)) {
   std::thread([shared = shared_] {
     try {
       Write(shared);
@@ -96,6 +103,11 @@ void FlightRecorder::Start() {
   shared_->changed.notify_all();
   shared_->changed.wait_for(lock, kFlightEndPatience,
                             [&] { return shared_->has_begun || shared_->has_ended; });
+}
+
+void FlightRecorder::SetLimits(RollingLimits all, SegmentLimits segment) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->new_limits = {.all = all, .segment = segment};
 }
 
 void FlightRecorder::WaitUntilWritten() {
@@ -155,7 +167,9 @@ void FlightRecorder::Write(const std::shared_ptr<Shared>& shared) {
       continue;
     }
     const std::deque<Shared::Item> items = std::exchange(all.queue, {});
+    const auto new_limits = std::exchange(all.new_limits, {});
     lock.unlock();
+    if (new_limits) segments->SetLimits(new_limits->all, new_limits->segment);
     std::uint64_t written = 0;
     for (const Shared::Item& item : items) {
       segments->Take(*item.batch, item.opening);

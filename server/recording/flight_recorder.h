@@ -48,10 +48,13 @@ class FlightSink {
 /// milliseconds. Take() is for one thread, the rest for any.
 class FlightRecorder final : public FlightSink {
  public:
-  FlightRecorder(RollingPlace place, SegmentLimits limits, const v1::Config& config,
+  FlightRecorder(const RollingPlace& place, SegmentLimits limits, const v1::Config& config,
                  const ClaimOptions& claim, std::int64_t wall_ns);
   /// Waits until all is written, at most kFlightEndPatience.
   ~FlightRecorder() override;
+
+  /// How much is kept from now on, and when a segment is full; not how much may wait. Any thread.
+  void SetLimits(RollingLimits all, SegmentLimits segment);
 
   /// Begins to write what it has taken so far; before that no file is touched. Waits until a file
   /// is there or cannot be made, at most kFlightEndPatience. Any thread.

@@ -78,7 +78,7 @@ bool RollingFiles::Open(const std::string& path, int flags, std::uint64_t bytes)
 bool RollingFiles::Append(const std::string& bytes, std::int64_t wall_ns) {
   if (is_removed()) return Fail(path_, ENOENT);
   const bool is_due = wall_ns - looked_ns_ > kLookAgainAfter || wall_ns < looked_ns_;
-  if (is_due || former_bytes_ + bytes_ + bytes.size() > place_.bytes_max) DropOld(wall_ns);
+  if (is_due || former_bytes_ + bytes_ + bytes.size() > place_.limits.bytes_max) DropOld(wall_ns);
   for (;;) {
     const int error_number = Write(bytes);
     if (error_number == 0) {
@@ -101,6 +101,11 @@ void RollingFiles::Close() {
   bytes_ = 0;
 }
 
+void RollingFiles::SetLimits(RollingLimits limits) {
+  place_.limits = limits;
+  looked_ns_ = 0;  // as long ago as at the start
+}
+
 /// The oldest first, but before these the ones that a wrong clock named.
 std::vector<wire::KeptFile> RollingFiles::FormerFiles() const {
   std::vector<wire::KeptFile> files = wire::KeptFilesIn(place_.folder, place_.suffix);
@@ -121,9 +126,10 @@ void RollingFiles::DropOld(std::int64_t wall_ns) {
   std::size_t left = files.size();
   for (std::size_t i = 0; i < files.size(); ++i) {
     // A file ends where the next one begins.
-    const bool is_old = place_.keep_ns > 0 && i + 1 < files.size() &&
-                        files[i + 1].begin_ns < wall_ns - place_.keep_ns;
-    const bool is_too_much = former_bytes_ + bytes_ > place_.bytes_max || left >= kRollingFilesMax;
+    const bool is_old = place_.limits.keep_ns > 0 && i + 1 < files.size() &&
+                        files[i + 1].begin_ns < wall_ns - place_.limits.keep_ns;
+    const bool is_too_much =
+        former_bytes_ + bytes_ > place_.limits.bytes_max || left >= kRollingFilesMax;
     if (!is_old && !is_too_much) continue;
     if (!wire::IsInUse(files[i].path) && unlink(files[i].path.c_str()) == 0) {
       former_bytes_ -= files[i].bytes;

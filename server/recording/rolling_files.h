@@ -11,13 +11,18 @@
 
 namespace collision::server {
 
+/// How much is kept.
+struct RollingLimits {
+  std::uint64_t bytes_max = 0;  ///< Of all files together.
+  std::int64_t keep_ns = 0;     ///< Older ones are removed; 0: none for its age.
+};
+
 /// Where files are kept, and how much of them.
 struct RollingPlace {
   std::string folder;
   std::string world_and_domain;  ///< "lab.0"
   const char* suffix = "";
-  std::uint64_t bytes_max = 0;  ///< Of all files together.
-  std::int64_t keep_ns = 0;     ///< Older ones are removed; 0: none for its age.
+  RollingLimits limits = {};
 };
 
 /// Beyond so many the oldest goes, too: a service that starts again and again leaves small ones.
@@ -49,6 +54,9 @@ class RollingFiles {
 
   void Close();
 
+  /// Count from the next Append() on.
+  void SetLimits(RollingLimits limits);
+
   const RollingPlace& place() const { return place_; }
   bool is_open() const { return file_ >= 0; }
   bool is_removed() const { return is_open() && IsRemoved(file_); }  ///< By somebody else.
@@ -66,7 +74,7 @@ class RollingFiles {
   bool DropOldest();
   bool Fail(const std::string& path, int error_number);
 
-  const RollingPlace place_;
+  RollingPlace place_;
   int file_ = -1;
   std::string path_;
   std::uint64_t bytes_ = 0;         ///< Of the open file.

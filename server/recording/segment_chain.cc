@@ -46,28 +46,46 @@ std::int64_t EndOf(const std::string& path) {
   return end_ns;
 }
 
+void RequireFrom(const std::string& path, const ReplayRange& range, std::int64_t begin_ns) {
+  const auto require = [&](const char* option, std::optional<std::int64_t> time_ns) {
+    if (!time_ns || *time_ns >= begin_ns) return;
+    throw std::runtime_error(path + ": " + option + " " + wire::UtcText(*time_ns) +
+                             " is before all that is recorded; allowed: from " +
+                             wire::UtcText(begin_ns) + " on");
+  };
+  require("--from", range.from_ns);
+  require("--until", range.until_ns);
+}
+
+[[noreturn]] void ThrowBehind(const std::string& path, std::int64_t from_ns) {
+  throw std::runtime_error(path + ": --from " + wire::UtcText(from_ns) +
+                           " is after the end of all that is recorded");
+}
+
+void RequireInFile(const std::string& path, const ReplayRange& range) {
+  RecordingReader reader(path);
+  const auto first = reader.Next();
+  if (!first) return;
+  RequireFrom(path, range, first->wall_ns());
+  if (range.from_ns && EndOf(path) < *range.from_ns) ThrowBehind(path, *range.from_ns);
+}
+
 }  // namespace
 
 SegmentChain::SegmentChain(const std::string& path, const ReplayRange& range) : range_(range) {
   std::error_code failed;
   if (!std::filesystem::is_directory(path, failed)) {
     segments_.push_back({.path = path});
+    if (range.from_ns || range.until_ns) RequireInFile(path, range);
     return;
   }
   const std::vector<wire::KeptFile> files = SegmentsIn(path);
-  if (range.from_ns && *range.from_ns < files.front().begin_ns) {
-    throw std::runtime_error(path + ": --from " + wire::UtcText(*range.from_ns) +
-                             " is before all recordings; allowed: from " +
-                             wire::UtcText(files.front().begin_ns) + " on");
-  }
+  RequireFrom(path, range, files.front().begin_ns);
   for (const wire::KeptFile& file : files) segments_.push_back(HeaderOf(file.path, file.begin_ns));
   SortByStart();
   if (!range.from_ns) return;
   next_ = FirstFrom(*range.from_ns);
-  if (next_ == segments_.size()) {
-    throw std::runtime_error(path + ": --from " + wire::UtcText(*range.from_ns) +
-                             " is after the end of all recordings");
-  }
+  if (next_ == segments_.size()) ThrowBehind(path, *range.from_ns);
 }
 
 SegmentChain::Segment SegmentChain::HeaderOf(const std::string& path, std::int64_t begin_ns) {

@@ -171,6 +171,11 @@ void Segments::Close(bool continues) {
   retry_ns_ = monotonic_ns_;
 }
 
+void Segments::SetLimits(RollingLimits all, SegmentLimits segment) {
+  files_.SetLimits(all);
+  limits_ = segment;
+}
+
 void Segments::End() { Close(false); }
 
 void Segments::Fail() {

@@ -45,6 +45,9 @@ class Segments {
   /// Batches that were not kept had these newest inputs. Ends the segment.
   void Miss(NewestInputs* newest);
 
+  /// How much is kept from now on, and when a segment is full.
+  void SetLimits(RollingLimits all, SegmentLimits segment);
+
   /// Hands what was taken to the operating system.
   void Flush();
 
@@ -69,7 +72,7 @@ class Segments {
   void Fail();
 
   RollingFiles files_;
-  const SegmentLimits limits_;
+  SegmentLimits limits_;
   const v1::Config config_;
   NewestInputs newest_;
   std::string unwritten_;

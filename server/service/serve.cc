@@ -189,8 +189,8 @@ std::optional<int> ServeUntilStopped(const v1::Config& config, Bus& bus, Service
          return status.IsDue(now);
        }});
   SignalRequests requests(
-      Reloader(config, std::move(parts.load_config)), [&daemon] { return daemon.StateLines(); },
-      &service_manager);
+      Reloader(config, std::move(parts.load_config)), std::move(parts.on_config),
+      [&daemon] { return daemon.StateLines(); }, &service_manager);
   SignalActions actions = ActionsOf(&daemon, &requests, &bus);
   actions.give_up = [recorder, flight = parts.flight, quarantine = parts.quarantine] {
     EndInTheStep(recorder, flight, quarantine);

@@ -38,6 +38,8 @@ struct ServiceParts {
   std::function<void()> on_work = nullptr;  ///< Called once, when it serves or stands by.
   /// Reads the configuration again, as the start did; null: there is no file.
   std::function<ConfigResult()> load_config = nullptr;
+  /// Called with what is in force after that.
+  std::function<void(const v1::Config&)> on_config = nullptr;
 };
 
 /// Runs the daemon until SIGTERM or SIGINT, the end of the bus, a batch that cannot be recorded, a

@@ -149,7 +149,7 @@ class SegmentsOfARun : public testing::Test {
     Segments segments({.folder = folder_,
                        .world_and_domain = "default.0",
                        .suffix = ".rec",
-                       .bytes_max = 1 << 30},
+                       .limits = {.bytes_max = 1 << 30}},
                       {.bytes = bytes, .age_ns = 1000 * kSecond}, config_, {}, 1);
     WrittenAtOnce flight(&segments);
     Scenario scenario(config_, Lossy(5));

@@ -25,7 +25,7 @@ using system_test::TestWorld;
 
 constexpr int kDomain = 85;
 /// About a minute and ten minutes on two processors.
-constexpr int kQuickWatches = 1000, kFullWatches = 12'000;
+constexpr int kQuickWatches = 500, kFullWatches = 12'000;
 /// A program of crews that is started later could not fly any more.
 constexpr int kLastStarts = 200;
 constexpr double kMaxGrownMb = 4;  ///< In the second half of the week.

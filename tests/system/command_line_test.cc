@@ -12,6 +12,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/sanitized.h"
 #include "tests/system/test_world.h"
 
 namespace collision::system_test {
@@ -132,6 +133,23 @@ TEST(CommandLine, WithoutDdsItSaysSo) {
   const Outcome outcome = RunToEnd({Program("collisiond")}, kNoNetwork);
   EXPECT_EQ(outcome.status, 69);
   EXPECT_TRUE(Contains(outcome.err, "collisiond: ")) << outcome.err;
+}
+
+// Goal:   where the system gives it too little, it says so, in place of a crash within DDS.
+// Method: limits of the shell; threads are few where each has a stack of a gigabyte, and a
+//         sanitizer has no room with such a limit.
+TEST(CommandLine, WithTooFewFilesOrThreadsItSaysSo) {
+  const auto within = [](const std::string& limits) {
+    return RunToEnd({"/bin/sh", "-c", limits + "; exec " + Program("collisiond")},
+                    {"CYCLONEDDS_URI=file://" + ConfigFile("cyclonedds-loopback.xml")});
+  };
+  const Outcome files = within("ulimit -n 20");
+  EXPECT_EQ(files.status, 69);
+  EXPECT_TRUE(Contains(files.err, "more files can be had here, and 48 are needed")) << files.err;
+  if (kSanitized) return;
+  const Outcome threads = within("ulimit -s 1048576; ulimit -v 6291456");
+  EXPECT_EQ(threads.status, 69);
+  EXPECT_TRUE(Contains(threads.err, "more threads can be had here, and 16")) << threads.err;
 }
 
 TEST(CommandLine, AFileThatCannotBeWrittenIsOneClearLine) {

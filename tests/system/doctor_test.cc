@@ -156,7 +156,8 @@ TEST_F(DoctorTest, NamesARecordingThatHasEnded) {
   const TestWorld world(128, kRealTime);
   const std::string file = world.folder().Path("run.rec");
   const Process daemon({"prlimit", "--fsize=6000", Program("collisiond"), "--config",
-                        world.folder().Path("collisiond.textproto"), "--record", file});
+                        world.folder().Path("collisiond.textproto"), "--record", file},
+                       {"CYCLONEDDS_URI=file://" + ConfigFile("cyclonedds-loopback.xml")});
   const auto simulator = StartHere(world, "troubles", "real-time");
   ComesToSay(world, {"to record: " + file});
 }

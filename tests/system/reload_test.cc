@@ -56,11 +56,12 @@ class ReloadTest : public testing::Test {
 TEST_F(ReloadTest, TakesWhatCanChangeAndOpensTheLogAnew) {
   ASSERT_TRUE(LogComesToSay("serves world"));
   std::filesystem::rename(folder_.Path("log"), folder_.Path("log.1"));
-  Write("debug", "agents_max: 7\n");
+  Write("debug", "agents_max: 7\nrecorder_mb_max: 500\n");
   const Outcome done = Reload();
   EXPECT_EQ(done.status, 0) << done.err;
   EXPECT_TRUE(Contains(done.out, "fields that differ take a new start; its log names them"));
   EXPECT_TRUE(Contains(Log(), "reloaded: log_level: \"info\" -> \"debug\"")) << Log();
+  EXPECT_TRUE(Contains(Log(), "recorder_mb_max: 1024 -> 500")) << Log();
   EXPECT_TRUE(Contains(Log(), "takes a new start to change: agents_max")) << Log();
 
   Write("info", "agents_max: many\n");

@@ -119,9 +119,11 @@ void Notices::LookForService(const Situation& situation, Time now) {
   if (!no_service_.Lasts("", now, kNoticeAfter)) return;
   Tell(NoticeKind::kNoService, "no service of " + world + " has been heard for " +
                                    std::to_string(no_service_.Since(now).count()) +
-                                   " s: does collisiond run, with the same world, domain and "
-                                   "CYCLONEDDS_URI? Here is " +
-                                   NetworkProfileText());
+                                   " s: does collisiond run, with the same world, domain, "
+                                   "CYCLONEDDS_URI and authority of credentials? Here is " +
+                                   NetworkProfileText() + "; collisionctl --world " + facts_.world +
+                                   " --domain " + std::to_string(facts_.domain) +
+                                   " doctor finds what is wrong");
 }
 
 bool Notices::LookAtClock(const Situation& situation, Time now) {

@@ -13,6 +13,7 @@
 #include "dds/ddsrt/log.h"
 #include "idl/dds/endpoints.h"
 #include "idl/dds/entity.h"
+#include "idl/dds/headroom.h"
 #include "idl/dds/security/credentials.h"
 #include "idl/dds/topics.h"
 
@@ -137,6 +138,7 @@ std::string Misfit(dds_entity_t participant, bool is_secured, dds_builtintopic_e
 }  // namespace
 
 std::string OwnDdsAddress(std::uint32_t domain) {
+  dds::RequireHeadroom();
   // Cyclone DDS tells it in its trace alone, of the category "config".
   static std::string address;
   address.clear();
@@ -169,6 +171,7 @@ DdsLookout::DdsLookout(std::uint32_t domain, const std::string& credentials,
     credentials_ = std::make_unique<dds::Credentials>(credentials, domain);
     credentials_->Apply(qos.get());
   }
+  dds::RequireHeadroom();
   participant_ = dds::Check(dds_create_participant(domain, qos.get(), nullptr),
                             "DDS participant in domain " + std::to_string(domain));
   const auto read = [this](dds_entity_t topic) {

@@ -39,7 +39,8 @@ struct DdsNeighbours {
 
 /// The address at which this process speaks in a domain, by its network profile: "10.0.0.7"; empty
 /// where DDS is not available there, or does not tell. Sets CYCLONEDDS_URI meanwhile. Requires that
-/// the process has no participant in the domain, and no thread that reads the environment.
+/// the process has no participant in the domain, and no thread that reads the environment. Throws
+/// std::runtime_error without headroom (idl/dds/headroom.h).
 std::string OwnDdsAddress(std::uint32_t domain);
 
 /// A participant that looks on. One thread.

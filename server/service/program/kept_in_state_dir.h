@@ -19,6 +19,9 @@ struct KeptInStateDir {
 
   /// Once the service works: before that neither touches a file.
   void Start() const;
+
+  /// How much is kept from now on; what is null stays so. `config` is complete.
+  void SetLimits(const v1::Config& config) const;
 };
 
 /// A segment has at most so much of all that may be kept: the oldest to go is not the only one.

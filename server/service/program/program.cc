@@ -104,16 +104,41 @@ std::unique_ptr<Journal> OpenJournal(const v1::Config& config, std::string* fail
   }
 }
 
+/// What a service remembers, as it is at the start.
+struct State {
+  std::unique_ptr<Journal> journal = nullptr;
+  std::string failure = {};  ///< Why there is none, and the service goes on.
+  bool opens_later = false;  ///< Another service has it now.
+};
+
+/// The exit code if that ends the service; nullopt: it does not.
+std::optional<int> OpenState(const v1::Config& config, State* state) {
+  if (config.on_state_failure() == v1::Config::END && config.state_dir().empty()) {
+    return Fail(kExitConfiguration,
+                "on_state_failure: END needs a folder for the journal: set state_dir, or "
+                "StateDirectory= in the unit of systemd (it sets STATE_DIRECTORY)");
+  }
+  try {
+    if (!state->opens_later) state->journal = OpenJournal(config, &state->failure);
+  } catch (const JournalInUse& error) {
+    if (config.on_occupied() != v1::Config::STAND_BY) return Fail(kExitOccupied, error.what());
+    state->opens_later = true;
+  } catch (const std::runtime_error& error) {
+    return Fail(kExitFile, std::string("state_dir: ") + error.what());
+  }
+  return std::nullopt;
+}
+
 dds::SenderLimits SenderLimitsOf(const v1::Config& config) {
   return {.samples_per_second = config.sender_messages_per_second_max(),
           .bytes_per_second = config.sender_bytes_per_second_max(),
           .waiting_bytes_max = config.waiting_mb_max() * std::size_t{1'000'000}};
 }
 
-DdsBusOptions BusOptionsOf(const v1::Config& config, bool stands_by) {
+DdsBusOptions BusOptionsOf(const v1::Config& config) {
   return {.lease = std::chrono::nanoseconds(ToNanoseconds(config.lease_s())),
           .sender_limits = SenderLimitsOf(config),
-          .stands_by = stands_by,
+          .stands_by = config.on_occupied() == v1::Config::STAND_BY,
           .credentials = config.credentials_dir()};
 }
 
@@ -206,40 +231,26 @@ std::function<ConfigResult()> LoaderOf(const Options& options) {
   };
 }
 
-/// `again`: it has left the world to another service, and is to stand by for that one.
-std::optional<int> ServeOnce(const v1::Config& config, const Options& options, bool again) {
+/// `again`: it has left the world to another service, and is to stand by for that one. `config`
+/// changes when it is read again.
+std::optional<int> ServeOnce(v1::Config& config, const Options& options, bool again) {
   std::shared_ptr<TreeCache> cache;
   try {
     cache = MakeTreeCache(config);
   } catch (const std::runtime_error& error) {
     return Fail(kExitFile, std::string("tree_cache_dir: ") + error.what());
   }
-  if (config.on_state_failure() == v1::Config::END && config.state_dir().empty()) {
-    return Fail(kExitConfiguration,
-                "on_state_failure: END needs a folder for the journal: set state_dir, or "
-                "StateDirectory= in the unit of systemd (it sets STATE_DIRECTORY)");
-  }
-  std::unique_ptr<Journal> journal;
-  std::string state_failure;
+  // The other service may share the folder, and needs the journal now.
+  State state{.opens_later = again && !config.state_dir().empty()};
+  if (const auto failed = OpenState(config, &state)) return failed;
+  std::unique_ptr<Journal>& journal = state.journal;
   std::function<Journal*()> open_journal;
-  const bool stands_by = config.on_occupied() == v1::Config::STAND_BY;
-  bool opens_later = again && !config.state_dir().empty();
-  try {
-    // The other service may share the folder, and needs the journal now.
-    if (!opens_later) journal = OpenJournal(config, &state_failure);
-  } catch (const JournalInUse& error) {
-    if (!stands_by) return Fail(kExitOccupied, error.what());
-    opens_later = true;
-  } catch (const std::runtime_error& error) {
-    return Fail(kExitFile, std::string("state_dir: ") + error.what());
-  }
-  if (opens_later) open_journal = [&] { return (journal = ReadJournal(config)).get(); };
+  if (state.opens_later) open_journal = [&] { return (journal = ReadJournal(config)).get(); };
   const std::unique_ptr<Quarantine> quarantine = OpenQuarantine(config, journal.get());
-  const ClaimOptions claim = ClaimOf(config, journal.get(), opens_later, again);
+  const ClaimOptions claim = ClaimOf(config, journal.get(), state.opens_later, again);
   std::unique_ptr<DdsBus> bus;
   try {
-    bus =
-        std::make_unique<DdsBus>(config.world(), config.domain(), BusOptionsOf(config, stands_by));
+    bus = std::make_unique<DdsBus>(config.world(), config.domain(), BusOptionsOf(config));
   } catch (const std::runtime_error& error) {
     return Fail(kExitUnavailable, error.what());
   }
@@ -259,7 +270,7 @@ std::optional<int> ServeOnce(const v1::Config& config, const Options& options, b
                 .trees = std::move(cache),
                 .journal = {.journal = journal.get(),
                             .open = std::move(open_journal),
-                            .failure = std::move(state_failure)},
+                            .failure = std::move(state.failure)},
                 .quarantine = quarantine.get(),
                 .claim = claim,
                 .on_work =
@@ -267,10 +278,15 @@ std::optional<int> ServeOnce(const v1::Config& config, const Options& options, b
                       recording.Keep();
                       kept.Start();
                     },
-                .load_config = LoaderOf(options)});
+                .load_config = LoaderOf(options),
+                .on_config =
+                    [&](const v1::Config& in_force) {
+                      kept.SetLimits(in_force);
+                      config = in_force;
+                    }});
 }
 
-int Serve(const v1::Config& config, const Options& options) {
+int Serve(v1::Config config, const Options& options) {
   PrepareSignals();
   for (bool again = false;; again = true) {
     if (const std::optional<int> code = ServeOnce(config, options, again)) return *code;

@@ -12,11 +12,13 @@
 
 namespace collision::server {
 
-/// Whether a field can change while the service runs. Answers depend on all others: a recording,
-/// which holds the configuration of its start, is to give the same events.
-bool CanChange(std::string_view path);
+/// Whether a field can change while the service runs: how it logs, and how much of what happens it
+/// keeps (but whether it keeps any, which changes from or to 0, takes a new start). Answers depend
+/// on most others: a recording, which holds the configuration of its start, is to give the same
+/// events.
+bool CanChange(std::string_view path, std::string_view before, std::string_view after);
 
-/// How a complete configuration wants the log, which is all that can change.
+/// How a complete configuration wants the log.
 LogOptions LogOptionsOf(const v1::Config& config);
 
 /// What came of it.

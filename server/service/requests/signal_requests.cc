@@ -60,6 +60,7 @@ ReloadAnswer SignalRequests::Reload() {
     spdlog::error("not reloaded: log_file: {}; the log stays where it was", error.what());
     return ReloadAnswer::kRefused;
   }
+  if (apply_) apply_(reloaded.config);
   reloader_.Commit(reloaded.config);
   const std::string changed = Listed(reloaded.changed);
   spdlog::info("reloaded: {}", changed.empty() ? "nothing has changed" : changed);

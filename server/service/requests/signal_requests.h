@@ -19,10 +19,14 @@ namespace collision::server {
 /// knows is written to the log.
 class SignalRequests {
  public:
-  /// `state_lines`: what the service knows. `notifier` outlives it.
-  SignalRequests(Reloader reloader, std::function<std::vector<std::string>()> state_lines,
-                 ServiceNotifier* notifier)
-      : reloader_(std::move(reloader)), state_lines_(std::move(state_lines)), notifier_(notifier) {}
+  /// `apply` puts what can change in force, but for the log; may be null. `state_lines`: what the
+  /// service knows. `notifier` outlives it.
+  SignalRequests(Reloader reloader, std::function<void(const v1::Config&)> apply,
+                 std::function<std::vector<std::string>()> state_lines, ServiceNotifier* notifier)
+      : reloader_(std::move(reloader)),
+        apply_(std::move(apply)),
+        state_lines_(std::move(state_lines)),
+        notifier_(notifier) {}
 
   /// These are called by the thread of the signals.
   void AskToReload(pid_t asker);
@@ -35,6 +39,7 @@ class SignalRequests {
   ReloadAnswer Reload();
 
   Reloader reloader_;
+  const std::function<void(const v1::Config&)> apply_;
   const std::function<std::vector<std::string>()> state_lines_;
   ServiceNotifier* const notifier_;
   std::mutex mutex_;

@@ -23,7 +23,7 @@ class ContactJournalTest : public testing::Test {
     return {.folder = folder_,
             .world_and_domain = "lab.0",
             .suffix = ".contacts",
-            .bytes_max = bytes_max};
+            .limits = {.bytes_max = bytes_max}};
   }
 
   static void Tell(ContactJournal* journal, std::uint64_t number) {
@@ -75,6 +75,20 @@ TEST_F(ContactJournalTest, GoesOnAfterAStartAndCutsOffADamagedTail) {
   }
   EXPECT_EQ(Files().size(), 2u);
   EXPECT_EQ(Kept(), (std::vector<std::uint64_t>{1, 3, 4}));
+}
+
+TEST_F(ContactJournalTest, AnotherLimitCountsFromTheNextContactOn) {
+  ContactJournal journal(Place(1 << 20));
+  journal.Start(1);
+  for (std::uint64_t i = 1; i <= 200; ++i) Tell(&journal, i);
+  ASSERT_EQ(Files().size(), 1u);
+  journal.SetLimits({.bytes_max = 4'000});
+  for (std::uint64_t i = 201; i <= 400; ++i) Tell(&journal, i);
+  std::uint64_t bytes = 0;
+  for (const wire::KeptFile& file : Files()) bytes += file.bytes;
+  EXPECT_LE(bytes, 4'000u);
+  EXPECT_GE(bytes, 3'000u);
+  EXPECT_EQ(Kept().back(), 400u);
 }
 
 // Goal:   damage in the middle costs what is damaged, and nothing behind it is written over.

@@ -13,85 +13,19 @@
 #include <sstream>
 #include <thread>
 
-#include "server/config/config.h"
-#include "server/recording/flight_recorder.h"
 #include "server/recording/recording.h"
 #include "server/recording/segment_chain.h"
-#include "tests/server/messages.h"
+#include "tests/server/recording/segments_support.h"
 #include "tests/support/random.h"
 
 namespace collision::server {
 namespace {
-
-constexpr std::int64_t kSecondNs = 1'000'000'000;
-constexpr std::int64_t kStart = 1'790'000'000 * kSecondNs;
 
 std::string ContentOf(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
 }
-
-/// Batches are a second apart, each with one clock, of about `bytes`.
-v1::RecordedBatch Batch(int number, std::size_t bytes = 1000) {
-  v1::RecordedBatch batch;
-  batch.set_wall_ns(kStart + number * kSecondNs);
-  batch.set_monotonic_ns(number * kSecondNs);
-  v1::SimulatorClock clock = ClockOf("alpha", number);
-  clock.set_simulator_name("alpha" + std::string(bytes, 'x'));
-  *batch.add_inputs() = From(1, clock);
-  return batch;
-}
-
-Opening OfAlpha() {
-  Opening opening;
-  opening.claim = {.instance = 7, .epoch = 1};
-  opening.simulators[SimulatorId("alpha")] = {.sender = 1, .run = 1, .is_in_time = true};
-  return opening;
-}
-
-class SegmentsTest : public testing::Test {
- protected:
-  SegmentsTest() { std::filesystem::remove_all(folder_); }
-  ~SegmentsTest() override { std::filesystem::remove_all(folder_); }
-
-  RollingPlace Place(std::uint64_t bytes_max, std::int64_t keep_s = 0) const {
-    return {.folder = folder_,
-            .world_and_domain = "lab.0",
-            .suffix = ".rec",
-            .bytes_max = bytes_max,
-            .keep_ns = keep_s * kSecondNs};
-  }
-
-  Segments Begin(const RollingPlace& place, SegmentLimits limits, int at = 0) const {
-    return Segments(place, limits, config_, {.instance = 7}, kStart + at * kSecondNs);
-  }
-
-  /// One step, as the daemon does it.
-  static void Step(Segments* segments, const v1::RecordedBatch& batch) {
-    segments->Take(batch, segments->wants_opening() ? std::optional(OfAlpha()) : std::nullopt);
-    segments->Flush();
-  }
-
-  std::vector<wire::KeptFile> Files() const { return wire::KeptFilesIn(folder_, ".rec"); }
-
-  /// The clocks of a chain that begins with this file, without the opening of the first.
-  std::vector<std::int64_t> ClocksFrom(const wire::KeptFile& file) const {
-    std::vector<std::int64_t> clocks;
-    SegmentChain chain(folder_, {.from_ns = file.begin_ns});
-    const bool begins = chain.NextRun([](const std::string& cause) { ADD_FAILURE() << cause; });
-    EXPECT_TRUE(begins);
-    if (!begins) return clocks;
-    while (const auto batch = chain.Next()) {
-      if (!batch->opening()) clocks.push_back(batch->inputs(0).simulator_clock().clock_ns());
-    }
-    EXPECT_EQ(chain.error(), "");
-    return clocks;
-  }
-
-  const v1::Config config_ = CompleteConfig({});
-  const std::string folder_ = testing::TempDir() + "segments." + std::to_string(getpid());
-};
 
 TEST_F(SegmentsTest, RollBySizeAndEachBeginsWithWhatIsNewest) {
   Segments segments = Begin(Place(1 << 30), {.bytes = 30'000, .age_ns = kStart});
@@ -152,6 +86,22 @@ TEST_F(SegmentsTest, TheOldestGoBeyondTheBoundAndAfterTheirTime) {
   for (int i = 1000; i < 1400; ++i) Step(&aged, Batch(i));
   EXPECT_GE(Files().front().begin_ns, kStart + 1270 * kSecondNs);
   EXPECT_LE(Files().front().begin_ns, kStart + 1300 * kSecondNs);
+}
+
+// Goal:   limits that change while it writes count from then on.
+TEST_F(SegmentsTest, OtherLimitsCountFromTheNextStepOn) {
+  Segments segments = Begin(Place(1 << 30), {.bytes = 5'000, .age_ns = kStart});
+  for (int i = 0; i < 200; ++i) Step(&segments, Batch(i));
+  ASSERT_GT(Files().size(), 20u);
+  segments.SetLimits({.bytes_max = 40'000}, {.bytes = 10'000, .age_ns = kStart});
+  Step(&segments, Batch(200));
+  std::uint64_t bytes = 0;
+  for (const wire::KeptFile& file : Files()) bytes += file.bytes;
+  EXPECT_LE(bytes, 41'000u);
+  EXPECT_GE(bytes, 30'000u);
+  for (int i = 201; i < 400; ++i) Step(&segments, Batch(i));
+  EXPECT_LE(Files().size(), 6u);
+  EXPECT_EQ(ClocksFrom(Files().front()).back(), 399);
 }
 
 // Goal:   what a clock wrote that was years ahead does not push out what is written now.
@@ -335,6 +285,29 @@ TEST_F(SegmentsTest, AReplayBeginsWithTheRunThatHasTheTime) {
   EXPECT_THROW(SegmentChain(folder_, {.from_ns = kStart + 60 * kSecondNs}), std::runtime_error);
 }
 
+// Goal:   a time at which nothing was recorded is refused, of a folder as of a single file.
+TEST_F(SegmentsTest, ATimeOfWhichNothingIsThereIsRefused) {
+  Segments segments = Begin(Place(1 << 30), {.bytes = 1 << 20, .age_ns = kStart}, 1);
+  for (int i = 1; i < 10; ++i) Step(&segments, Batch(i));
+  segments.End();
+  for (const std::string& path : {folder_, Files().at(0).path}) {
+    const auto refusal = [&path](const ReplayRange& range) -> std::string {
+      try {
+        const SegmentChain chain(path, range);
+      } catch (const std::runtime_error& error) {
+        return error.what();
+      }
+      return "";
+    };
+    EXPECT_NE(refusal({.from_ns = kStart}).find("--from"), std::string::npos);
+    EXPECT_NE(refusal({.until_ns = kStart}).find("--until"), std::string::npos);
+    EXPECT_NE(refusal({.from_ns = kStart + 10 * kSecondNs}).find("after the end"),
+              std::string::npos);
+    EXPECT_EQ(refusal({.from_ns = kStart + kSecondNs, .until_ns = kStart + kSecondNs}), "");
+    EXPECT_EQ(refusal({.from_ns = kStart + 9 * kSecondNs}), "");
+  }
+}
+
 // Goal:   who removes the folder of a running service loses what was in it, and nothing later.
 TEST_F(SegmentsTest, BeginAnewWhereTheFileWasRemoved) {
   Segments segments =
@@ -375,43 +348,6 @@ TEST_F(SegmentsTest, OnAFullDiskTheOldestMakesRoom) {
     EXPECT_EQ(segments.failure(), "");
     EXPECT_EQ(ClocksFrom(Files().back()).back(), 3019);
   }).join();
-}
-
-// Goal:   with hardly any room in its queue batches are left out, but never without saying so, and
-//         what is newest is never lost.
-// Method: one that takes two batches at most; how many it leaves out depends on the machine, and
-//         what holds does not.
-TEST_F(SegmentsTest, ASlowDiskLeavesAGapThatIsTold) {
-  constexpr int kBatches = 3000;
-  {
-    const SegmentLimits limits{.bytes = 20'000, .age_ns = kStart, .queue_bytes = 1};
-    FlightRecorder recorder(Place(1 << 30), limits, config_, {.instance = 7}, kStart);
-    recorder.Start();
-    for (int i = 0; i < kBatches; ++i) {
-      auto batch = std::make_shared<v1::RecordedBatch>(Batch(i, 100));
-      recorder.Take(batch, recorder.wants_opening() ? std::optional(OfAlpha()) : std::nullopt);
-    }
-  }
-  std::int64_t last = -1;
-  bool continues = false;
-  for (const wire::KeptFile& file : Files()) {
-    RecordingReader reader(file.path);
-    std::int64_t opened = -1;
-    while (const auto batch = reader.Next()) {
-      const std::int64_t clock = batch->inputs(0).simulator_clock().clock_ns();
-      if (batch->opening()) {
-        opened = clock;
-        EXPECT_TRUE(!continues || clock == last) << "nothing is missing where a segment says so";
-        EXPECT_GE(clock, last);
-        continue;
-      }
-      EXPECT_EQ(clock, opened >= 0 ? opened + 1 : last + 1) << file.path;
-      opened = -1;
-      last = clock;
-    }
-    EXPECT_EQ(reader.error(), "");
-    continues = reader.continues();
-  }
 }
 
 }  // namespace

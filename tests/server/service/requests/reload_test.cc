@@ -42,12 +42,38 @@ TEST(Reload, WithoutAFileNothingChanges) {
   EXPECT_TRUE(reloaded.changed.empty() && reloaded.unchanged.empty());
 }
 
+TEST(Reload, HowMuchIsKeptCanChangeAndWhetherAnyIsTakesANewStart) {
+  std::string text;
+  const Reloader reloader(ParseConfig("contacts_mb_max: 0", "f").config,
+                          [&text] { return ParseConfig(text, "f"); });
+  text = "contacts_mb_max: 7 recorder_mb_max: 0";
+  EXPECT_TRUE(reloader.Read().changed.empty());
+  EXPECT_EQ(reloader.Read().unchanged,
+            (std::vector<std::string>{"recorder_mb_max", "contacts_mb_max"}));
+  text = "contacts_mb_max: 0 recorder_mb_max: 100 recorder_keep_s: 60";
+  EXPECT_EQ(reloader.Read().config.recorder_mb_max(), 100u);
+  EXPECT_EQ(reloader.Read().config.recorder_keep_s(), 60);
+  EXPECT_TRUE(reloader.Read().unchanged.empty());
+}
+
+TEST(Reload, BlocksThatDifferAreNamed) {
+  std::string text = "classes { name: \"robot\" meets: \"robot\" }";
+  const Reloader reloader(ParseConfig(text, "f").config,
+                          [&text] { return ParseConfig(text, "f"); });
+  EXPECT_TRUE(reloader.Read().unchanged.empty());
+  text += "limits { name: \"drone-*\" agents_max: 100 }";
+  EXPECT_EQ(reloader.Read().unchanged, std::vector<std::string>{"limits"});
+  text = "";
+  EXPECT_EQ(reloader.Read().unchanged, std::vector<std::string>{"classes"});
+}
+
 TEST(Reload, FieldsThatCanChangeAreInTheTable) {
-  for (const char* field : {"log_level", "log_file"}) {
-    EXPECT_TRUE(CanChange(field));
+  for (const char* field : {"log_level", "log_file", "recorder_mb_max", "recorder_segment_mb",
+                            "recorder_segment_s", "recorder_keep_s", "contacts_mb_max"}) {
+    EXPECT_TRUE(CanChange(field, "1", "2"));
     EXPECT_NE(FindConfigOption(field), nullptr);
   }
-  EXPECT_FALSE(CanChange("agents_max"));
+  EXPECT_FALSE(CanChange("agents_max", "1", "2"));
 }
 
 }  // namespace

@@ -4,11 +4,9 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
-#include <latch>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -18,6 +16,7 @@
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/world_view.h"
 #include "client/programs/tools/collisionctl/doctor/findings.h"
+#include "idl/dds/headroom.h"
 #include "idl/dds/network_log.h"
 #include "idl/limits.h"
 
@@ -58,24 +57,11 @@ DdsNeighbours LookUntil(const DdsLookout& lookout, Enough enough) {
   return seen;
 }
 
-/// How many of so many threads can be had: Cyclone DDS ends the process where one cannot, as in a
-/// container with a limit.
-std::size_t ThreadsToBeHad(std::size_t wanted) {
-  std::latch counted(1);
-  std::vector<std::jthread> threads;
-  try {
-    while (threads.size() < wanted) threads.emplace_back([&counted] { counted.wait(); });
-  } catch (const std::system_error&) {
-  }
-  counted.count_down();
-  return threads.size();
-}
-
 /// The other domains in which the world is served.
 std::vector<std::uint32_t> LookElsewhere(const DoctorOptions& options) {
   std::vector<std::uint32_t> served;
   dds::SetNetworkLog([](const std::string&) {});  // of domains that nobody asked for
-  const std::size_t threads = ThreadsToBeHad(kDomainsAtOnce * kThreadsOfADomain);
+  const std::size_t threads = dds::ThreadsToBeHad(kDomainsAtOnce * kThreadsOfADomain);
   const auto at_once = static_cast<std::uint32_t>(threads / kThreadsOfADomain);
   if (at_once < kDomainsAtOnceMin) {
     std::cerr << "collisionctl: other domains are not looked into: only " << threads

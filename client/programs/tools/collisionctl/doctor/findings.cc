@@ -106,6 +106,10 @@ class Doctor {
     } else if (says("match an available interface")) {
       Add("profile", cannot + profile + ": " + what,
           "name an interface of this machine in <NetworkInterface name=\"...\"/>: " + OwnText());
+    } else if (says("can be had here")) {
+      Add("dds", "DDS is not started: " + what,
+          "raise that limit, and that of the service if it has the same: systemctl show, "
+          "docker inspect, ulimit -a");
     } else if (says("config:")) {
       Add("profile", cannot + profile + ": " + what,
           "correct that place of the profile; config/cyclonedds-lan.xml shows one");
@@ -137,7 +141,8 @@ class Doctor {
     }
     if (const auto worlds = WorldsServed(seen_.neighbours); !worlds.empty()) {
       return Add("other-world", none + "; served here: " + Joined(worlds),
-                 "collisionctl --world " + worlds.front() + " doctor, or " + start);
+                 "take that world (--world " + worlds.front() + "), or " + start +
+                     "; one that runs already hangs: start it again");
     }
     if (!seen_.elsewhere.empty()) {
       const std::string domain = std::to_string(seen_.elsewhere.front());
