@@ -11,6 +11,7 @@
 #include "tests/report/rows.h"
 #include "tests/report/sections.h"
 #include "tests/report/text.h"
+#include "tests/support/temporary_path.h"
 
 namespace collision::report {
 namespace {
@@ -130,7 +131,7 @@ TEST(ReportResults, NoiseIsTheSpreadOfTheReference) {
 
 TEST(ReportResults, JsonIsReadAgain) {
   const v1::Results results = Timed(0.25, 2);
-  const std::string path = testing::TempDir() + "results.json";
+  const std::string path = TemporaryPath("results.json");
   WriteFile(path, ToJson(results));
   EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(FromJson(path), results));
   WriteFile(path, "{\"machine\": 3}");

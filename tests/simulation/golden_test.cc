@@ -7,6 +7,7 @@
 #include "server/recording/replay.h"
 #include "tests/simulation/contact_checker.h"
 #include "tests/simulation/scenario.h"
+#include "tests/support/temporary_path.h"
 
 namespace collision::server {
 namespace {
@@ -28,7 +29,7 @@ void RunGolden(Scenario* scenario, BatchSink* recorder) {
 //         for bit, in every build type, in a second run, and when its recording is replayed.
 TEST(Golden, TheEventLogIsTheSameEverywhere) {
   const v1::Config config = ConfigFor(2);
-  const std::string file = testing::TempDir() + "golden.recording";
+  const std::string file = TemporaryPath("golden.recording");
   std::uint64_t hash = 0;
   {
     Scenario scenario(config, Lossy(5));

@@ -18,6 +18,7 @@
 #include "server/recording/segment_chain.h"
 #include "tests/simulation/scenario.h"
 #include "tests/support/meshes.h"
+#include "tests/support/temporary_path.h"
 #include "tests/support/written_at_once.h"
 
 namespace collision::server {
@@ -167,7 +168,7 @@ class SegmentsOfARun : public testing::Test {
   }
 
   const v1::Config config_ = ConfigFor(2);
-  const std::string folder_ = testing::TempDir() + "segments_of_a_run";
+  const std::string folder_ = TemporaryPath("segments_of_a_run");
   std::vector<Contact> live_;
   std::uint64_t hash_ = 0;
 };

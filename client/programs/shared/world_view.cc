@@ -153,6 +153,13 @@ std::optional<AgentView> WorldView::Agent(const AgentId& id) const {
   return HeldOnly(id.simulator, id.run, cleared->second.second);
 }
 
+std::optional<AgentView> WorldView::Newest(std::uint64_t simulator, std::uint32_t slot) const {
+  const Key key{simulator, slot};
+  const auto described = descriptions_.find(key);
+  if (described == descriptions_.end()) return std::nullopt;
+  return Described(key, described->second);
+}
+
 AgentView WorldView::Described(const Key& key, const v1::AgentDescription& description) const {
   AgentView agent;
   agent.description = description;

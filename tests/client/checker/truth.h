@@ -12,6 +12,7 @@
 #include "client/programs/simulators/motion/motion_log.h"
 #include "client/programs/simulators/player/csv_rows.h"
 #include "client/programs/simulators/player/trajectory.h"
+#include "tests/support/temporary_path.h"
 
 namespace collision::client {
 
@@ -19,8 +20,7 @@ namespace collision::client {
 inline std::vector<checker::AgentMotion> MotionsOf(const std::string& path, double radius_m) {
   std::ifstream file(path);
   const CsvRows rows = ReadCsv(file, path);
-  const std::string log_path =
-      testing::TempDir() + "truth_of_" + std::to_string(radius_m) + ".motion";
+  const std::string log_path = TemporaryPath("truth_of_" + std::to_string(radius_m) + ".motion");
   MotionLog log(log_path);
   for (const auto& [id, agent_rows] : rows.rows) {
     log.Agent(id, radius_m);

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/temporary_path.h"
+
 namespace collision::server {
 namespace {
 
@@ -81,7 +83,7 @@ TEST(MatterLimiter, BoundsTheNumberOfMatters) {
 
 // Goal:   the process's log goes to the file, from the level on, and keeps what was there.
 TEST(Logging, WritesToTheFileFromTheLevelOn) {
-  const std::string path = testing::TempDir() + "logging_test.log";
+  const std::string path = TemporaryPath("logging_test.log");
   std::ofstream(path) << "before\n";
   StartLogging({.level = "warn", .file = path});
   Log(spdlog::level::info, "chatter", "unheard");
@@ -112,7 +114,7 @@ TEST(Logging, WhatCannotBeWrittenIsAFailure) {
 }
 
 TEST(Logging, WritesJson) {
-  const std::string path = testing::TempDir() + "logging_test.json";
+  const std::string path = TemporaryPath("logging_test.json");
   std::remove(path.c_str());
   StartLogging({.file = path, .json = true});
   spdlog::warn("a \"quoted\" \\ text\nof two lines, \u00e9");
@@ -131,7 +133,7 @@ TEST(Logging, WritesJson) {
 // Goal:   the journal gets priorities, and no times, which it has.
 // Method: standard error is a file, and JOURNAL_STREAM names it; then another one.
 TEST(Logging, WritesPrioritiesToTheJournal) {
-  const std::string path = testing::TempDir() + "logging_test.journal";
+  const std::string path = TemporaryPath("logging_test.journal");
   const int before = dup(STDERR_FILENO);
   ASSERT_NE(std::freopen(path.c_str(), "w", stderr), nullptr);
   struct stat errors {};

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "idl/recording/entries.h"
+#include "tests/support/temporary_path.h"
 
 namespace collision::server {
 namespace {
@@ -52,7 +53,7 @@ class ContactJournalTest : public testing::Test {
     return numbers;
   }
 
-  const std::string folder_ = testing::TempDir() + "contacts." + std::to_string(getpid());
+  const std::string folder_ = TemporaryPath("contacts");
 };
 
 TEST_F(ContactJournalTest, GoesOnAfterAStartAndCutsOffADamagedTail) {

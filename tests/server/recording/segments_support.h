@@ -14,6 +14,7 @@
 #include "server/recording/segment_chain.h"
 #include "server/recording/segments.h"
 #include "tests/server/messages.h"
+#include "tests/support/temporary_path.h"
 
 namespace collision::server {
 
@@ -77,7 +78,7 @@ class SegmentsTest : public testing::Test {
   }
 
   const v1::Config config_ = CompleteConfig({});
-  const std::string folder_ = testing::TempDir() + "segments." + std::to_string(getpid());
+  const std::string folder_ = TemporaryPath("segments");
 };
 
 }  // namespace collision::server

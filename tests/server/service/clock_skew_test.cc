@@ -13,6 +13,7 @@
 #include "server/process/logging.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
+#include "tests/support/temporary_path.h"
 
 namespace collision::server {
 namespace {
@@ -150,7 +151,7 @@ TEST_F(ClockSkewTest, PromisesAboutItsAgentsAreVoidForBothAndItsCulpritIsNamed) 
 }
 
 TEST_F(ClockSkewTest, TheLogNamesEachAndSaysWhatToDo) {
-  const std::string path = testing::TempDir() + "clock_skew_test.log";
+  const std::string path = TemporaryPath("clock_skew_test.log");
   StartLogging({.level = "info", .file = path});
   offset_ns_["alpha"] = offset_ns_["beta"] = -5 * kSecond;
   Tell(true);

@@ -11,6 +11,7 @@
 #include "server/recording/recording.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
+#include "tests/support/temporary_path.h"
 
 namespace collision::server {
 namespace {
@@ -59,7 +60,7 @@ TEST(Daemon, WallClockFindsAContact) {
 // Goal:   a dead simulator that holds up the world is named: in the log once per death, also if two
 //         die within a second, and in the status while it is waited for. So is a released one.
 TEST(Daemon, NamesTheDeadThatHoldUpTheWorld) {
-  const std::string path = testing::TempDir() + "daemon_test.log";
+  const std::string path = TemporaryPath("daemon_test.log");
   StartLogging({.level = "info", .file = path});
   v1::Config config = Simulated();
   config.mutable_clock()->set_on_silent_simulator(v1::Clock::RELEASE);

@@ -21,6 +21,7 @@
 #include "tests/server/messages.h"
 #include "tests/server/shapes/failing_tree_store.h"
 #include "tests/server/shapes/shapes.h"
+#include "tests/support/temporary_path.h"
 
 namespace collision::server {
 namespace {
@@ -87,9 +88,8 @@ struct Served {
 
 /// Serves on this bus, with a log and a recording.
 Served ServeOn(Bus& bus, std::shared_ptr<TreeStore> trees = nullptr) {
-  const std::string recording =
-      testing::TempDir() + "serve_test_failed.recording." + std::to_string(getpid());
-  const std::string log = testing::TempDir() + "serve_test.log." + std::to_string(getpid());
+  const std::string recording = TemporaryPath("serve_test_failed.recording");
+  const std::string log = TemporaryPath("serve_test.log");
   const v1::Config config = CompleteConfig({});
   Served served;
   StartLogging({.level = "critical", .file = log});
@@ -113,7 +113,7 @@ Served ServeOn(Bus& bus, std::shared_ptr<TreeStore> trees = nullptr) {
 //         recording is whole, with the batch of that step.
 TEST(Serve, EndsInTheMiddleOfAStep) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  const std::string path = testing::TempDir() + "serve_test.recording";
+  const std::string path = TemporaryPath("serve_test.recording");
   const auto serve = [&path] {
     StartLogging({.level = "info"});
     PrepareSignals();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tests/server/service/voyage.h"
+#include "tests/support/temporary_path.h"
 
 namespace collision::server {
 namespace {
@@ -38,7 +39,7 @@ v1::Input Serving() {
 
 // Goal:   the journal is opened, and has the term, though nobody is there to follow.
 TEST(StandbyOfAQuietWorld, OpensTheJournalOnceTheOtherServiceHasLetGo) {
-  const std::string folder = testing::TempDir() + "standby_of_a_quiet_world";
+  const std::string folder = TemporaryPath("standby_of_a_quiet_world");
   std::filesystem::remove_all(folder);
   auto of_the_other = std::make_unique<Journal>(folder, "default", 0, 16);
   std::unique_ptr<Journal> own;

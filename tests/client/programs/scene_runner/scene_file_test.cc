@@ -6,13 +6,14 @@
 #include <fstream>
 
 #include "client/programs/scene_runner/metrics.h"
+#include "tests/support/temporary_path.h"
 
 namespace collision::client {
 namespace {
 
 class SceneFileTest : public testing::Test {
  protected:
-  SceneFileTest() : folders_{testing::TempDir() + "scenes", "", ""} {
+  SceneFileTest() : folders_{TemporaryPath("scenes"), "", ""} {
     std::filesystem::create_directories(folders_.scenes);
   }
 

@@ -141,7 +141,7 @@ class Doctor {
     }
     if (const auto worlds = WorldsServed(seen_.neighbours); !worlds.empty()) {
       return Add("other-world", none + "; served here: " + Joined(worlds),
-                 "take that world (--world " + worlds.front() + "), or " + start +
+                 "collisionctl --world " + worlds.front() + " doctor, or " + start +
                      "; one that runs already hangs: start it again");
     }
     if (!seen_.elsewhere.empty()) {
