@@ -109,8 +109,8 @@ class WorldView {
   /// The agent, if it is one of these.
   std::optional<AgentView> Agent(const AgentId& id) const;
 
-  /// The agent in this slot of this simulator as it was described last; nullopt: it has left, or was
-  /// never described.
+  /// The agent in this slot of this simulator as it was described last; nullopt: it has left, or
+  /// was never described.
   std::optional<AgentView> Newest(std::uint64_t simulator, std::uint32_t slot) const;
 
   /// How many more the service holds of each simulator that is not heard: a simulator that was
