@@ -125,6 +125,11 @@ const std::vector<Layer>& Layers() {
         core + "intersection/"}},
       {programs + "tools/",
        {"idl/", api, library, mesh, checker, programs + "shared/", programs + "tools/"}},
+      // A monitor like anybody's, with the documents that collisionctl prints.
+      {programs + "gateway/web/", {"idl/sha256.h", programs + "gateway/web/"}},
+      {programs + "gateway/",
+       {"idl/", api, library, programs + "shared/", programs + "tools/collisionctl/",
+        programs + "gateway/"}},
       {programs + "shared/", {"idl/", api, library, mesh, programs + "shared/"}},
       {programs + "simulators/motion/",
        {api, library, programs + "shared/", programs + "simulators/motion/"}},

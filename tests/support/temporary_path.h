@@ -14,8 +14,10 @@ namespace collision {
 /// A path for this process alone, since each test is one; what is there is removed at its end.
 inline std::string TemporaryPath(const std::string& name) {
   static struct Paths {
-    std::set<std::string> all;
+    const pid_t process = getpid();
+    std::set<std::string> all = {};
     ~Paths() {
+      if (getpid() != process) return;  // a copy of it that has been forked
       std::error_code ignored;
       for (const std::string& path : all) std::filesystem::remove_all(path, ignored);
     }

@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <future>
 #include <mutex>
@@ -113,7 +114,11 @@ Served ServeOn(Bus& bus, std::shared_ptr<TreeStore> trees = nullptr) {
 //         recording is whole, with the batch of that step.
 TEST(Serve, EndsInTheMiddleOfAStep) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  const std::string path = TemporaryPath("serve_test.recording");
+  // The process that is to end runs this test anew, up to there, and writes where this one reads.
+  constexpr char kVariable[] = "COLLISION_SERVE_TEST_RECORDING";
+  const char* told = std::getenv(kVariable);
+  const std::string path = told != nullptr ? told : TemporaryPath("serve_test.recording");
+  setenv(kVariable, path.c_str(), 1);
   const auto serve = [&path] {
     StartLogging({.level = "info"});
     PrepareSignals();
@@ -127,7 +132,6 @@ TEST(Serve, EndsInTheMiddleOfAStep) {
   EXPECT_TRUE(reader.Next().has_value());
   EXPECT_FALSE(reader.Next().has_value());
   EXPECT_EQ(reader.error(), "");
-  std::remove(path.c_str());
 }
 
 // Goal:   a check that fails within a step ends the service with 70 and a critical line that names

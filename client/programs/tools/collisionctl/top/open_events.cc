@@ -16,8 +16,14 @@ bool IsOpen(const v1::CollisionEvent& event) {
 
 void OpenEvents::Add(const std::vector<v1::CollisionEvent>& revisions) {
   for (const v1::CollisionEvent& event : revisions) {
+    if (const auto ended = slots_.Take(event)) {
+      const auto former = events_.find(*ended);
+      const bool is_forecast =
+          former != events_.end() && former->second.status() == v1::EVENT_POSSIBLE;
+      if (is_forecast) events_.erase(former);
+    }
     if (!event.level().empty()) continue;
-    const Key key{FromMessage(event.lower()), FromMessage(event.higher()), event.contact()};
+    const EventKey key = KeyOf(event);
     if (!IsOpen(event)) {
       events_.erase(key);
     } else if (events_.size() < kEventsMax || events_.contains(key)) {

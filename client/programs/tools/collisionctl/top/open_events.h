@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <tuple>
 #include <vector>
 
+#include "client/programs/shared/forecast_slots.h"
 #include "client/programs/shared/world_view.h"
 
 namespace collision::client {
@@ -29,9 +29,8 @@ class OpenEvents {
   std::size_t confirmed() const;
 
  private:
-  using Key = std::tuple<AgentId, AgentId, std::uint32_t>;  ///< Lower, higher, contact.
-
-  std::map<Key, v1::CollisionEvent> events_;
+  std::map<EventKey, v1::CollisionEvent> events_;
+  ForecastSlots slots_;
 };
 
 }  // namespace collision::client

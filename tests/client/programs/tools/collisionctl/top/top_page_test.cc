@@ -23,6 +23,7 @@ class TopTest : public CollisionctlTest {
     v1::CollisionEvent event = OwnEvent(contact, 1, contact);
     event.set_status(status);
     event.mutable_higher()->set_slot(contact);
+    event.set_pair_slot(contact);
     event.set_now_ns(12'000'000'000);
     event.mutable_begin()->set_earliest_ns(begin_ns);
     event.mutable_begin()->set_latest_ns(kNever);
@@ -113,6 +114,29 @@ TEST_F(TopTest, JsonFitsTheSchema) {
   std::string bad = json;
   bad.replace(bad.find("\"status\":\"possible\""), 19, none);
   EXPECT_NE(ComplaintsAbout({bad}), "") << "a pair with a key that the schema does not have";
+}
+
+// Goal:   a forecast ends, too, where all that is heard is another pair in its slot.
+TEST_F(TopTest, AForecastThatAnotherPairReplacedIsGone) {
+  for (std::uint32_t contact : {1u, 2u}) {
+    v1::CollisionEvent event = Make(contact, v1::EVENT_POSSIBLE, 13'000'000'000);
+    event.set_contacts_sequence(0);
+    event.set_pair_slot(8);
+    Add(event);
+    EXPECT_EQ(open_.possible(), 1u);
+  }
+  EXPECT_NE(Page(9).find("bob2"), std::string::npos) << Page(9);
+  EXPECT_EQ(Page(9).find("bob1"), std::string::npos) << Page(9);
+  // What has become a contact meanwhile stays.
+  v1::CollisionEvent contact = Make(2, v1::EVENT_CONFIRMED, 12'000'000'000);
+  contact.set_contacts_sequence(1);
+  Add(contact);
+  v1::CollisionEvent next = Make(3, v1::EVENT_POSSIBLE, 13'000'000'000);
+  next.set_contacts_sequence(0);
+  next.set_pair_slot(8);
+  Add(next);
+  EXPECT_EQ(open_.confirmed(), 1u);
+  EXPECT_EQ(open_.possible(), 1u);
 }
 
 }  // namespace

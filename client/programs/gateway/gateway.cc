@@ -1,0 +1,215 @@
+#include "client/programs/gateway/gateway.h"
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "client/library/identity/library_version.h"
+#include "client/library/network/dds_transport.h"
+#include "client/library/notices/notices.h"
+#include "client/programs/gateway/metrics/world_metrics.h"
+#include "client/programs/gateway/scene/page_viewer.h"
+#include "client/programs/gateway/scene/scene.h"
+#include "client/programs/gateway/site.h"
+#include "client/programs/shared/exit_code.h"
+#include "client/programs/tools/collisionctl/agents_watcher.h"
+#include "client/programs/tools/collisionctl/status/verdict.h"
+
+namespace collision::gateway {
+namespace {
+
+using Time = std::chrono::steady_clock::time_point;
+
+constexpr std::chrono::milliseconds kWaitMax{100};  ///< Longest time to notice the end.
+constexpr std::chrono::seconds kStatusMax{11};      ///< A status that is older is none.
+constexpr std::chrono::seconds kMetricsPeriod{1};   ///< A status comes twice as often.
+
+std::chrono::nanoseconds Seconds(double seconds) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(seconds));
+}
+
+/// One line, of 16 to 256 printable characters without blanks.
+std::string ReadToken(const std::string& file) {
+  std::string token;
+  std::getline(std::ifstream(file), token);
+  const bool is_clean = std::ranges::all_of(token, [](char c) { return c > ' ' && c < 127; });
+  if (token.size() < 16 || token.size() > 256 || !is_clean ||
+      token.find_first_of(";,\"&") != std::string::npos) {
+    throw client::BadInput("--token-file " + file +
+                           ": allowed: one line of 16 to 256 printable characters without blanks "
+                           "and ; , \" &");
+  }
+  return token;
+}
+
+bool IsLoopback(const std::string& address) {
+  return address == "::1" || address.starts_with("127.");
+}
+
+/// Where the page is: beside the program, as it is installed or was built.
+std::string PageFolder(const GatewayOptions& options) {
+  if (!options.page.empty()) return options.page;
+  std::error_code failed;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", failed);
+  return (program.parent_path().parent_path() / "share" / "collision-gateway" / "page").string();
+}
+
+/// Null, and a line that says so, where it is not there and nobody has named one.
+std::unique_ptr<const PageFiles> ReadPage(const GatewayOptions& options) {
+  const std::string folder = PageFolder(options);
+  try {
+    return std::make_unique<const PageFiles>(folder);
+  } catch (const std::runtime_error& error) {
+    if (!options.page.empty()) throw client::BadInput("--page " + std::string(error.what()));
+    std::cerr << "collision-gateway: without the page: " << error.what() << '\n';
+    return nullptr;
+  }
+}
+
+/// A page viewer that is counted.
+class CountedViewer final : public WebViewer {
+ public:
+  CountedViewer(std::unique_ptr<WebViewer> viewer, std::atomic<int>* count)
+      : viewer_(std::move(viewer)), count_(*count) {
+    ++count_;
+  }
+  ~CountedViewer() override { --count_; }
+  CountedViewer(const CountedViewer&) = delete;
+  CountedViewer& operator=(const CountedViewer&) = delete;
+
+  std::optional<WebMessage> Next() override { return viewer_->Next(); }
+  std::string Hear(const std::string& message, bool is_text) override {
+    return viewer_->Hear(message, is_text);
+  }
+
+ private:
+  const std::unique_ptr<WebViewer> viewer_;
+  std::atomic<int>& count_;
+};
+
+/// All of it, in the order in which it is made.
+class Gateway {
+ public:
+  explicit Gateway(const GatewayOptions& options)
+      : options_(options),
+        page_(ReadPage(options)),
+        site_(page_.get(), &shapes_),
+        scene_(&board_, &shapes_),
+        monitor_(MonitorOptionsOf(options), scene_.Callbacks()),
+        server_(WebOptionsOf(options), Handlers()) {}
+
+  std::uint16_t port() const { return server_.port(); }
+
+  void Run(const std::function<bool()>& stopped) {
+    const auto period = Seconds(1 / options_.rate_hz);
+    Time due = std::chrono::steady_clock::now();
+    while (!stopped()) {
+      const Time now = std::chrono::steady_clock::now();
+      if (now >= due) {
+        due = now + period;
+        ShowWhatIsNew(now);
+        Watch(now);
+      }
+      monitor_.Poll(std::min<std::chrono::nanoseconds>(kWaitMax, due - now));
+    }
+  }
+
+ private:
+  static client::MonitorOptions MonitorOptionsOf(const GatewayOptions& options) {
+    client::MonitorOptions all = options.monitor;
+    all.simulators = true;
+    return all;
+  }
+
+  static WebOptions WebOptionsOf(const GatewayOptions& options) {
+    WebOptions web = options.web;
+    if (!options.token_file.empty()) web.token = ReadToken(options.token_file);
+    if (web.token.empty() && !IsLoopback(web.address)) {
+      throw client::BadInput("--address " + web.address +
+                             ": whoever reaches it could look: give it a --token-file, or stay on "
+                             "127.0.0.1 and let a reverse proxy ask who it is");
+    }
+    return web;
+  }
+
+  WebHandlers Handlers() {
+    return {.answer = [this](const WebRequest& request) { return site_.Answer(request); },
+            .protocols = {kPageProtocol},
+            .connect = [this](const std::string&) -> std::unique_ptr<WebViewer> {
+              return std::make_unique<CountedViewer>(std::make_unique<PageViewer>(&board_),
+                                                     &viewers_);
+            }};
+  }
+
+  void ShowWhatIsNew(Time now) {
+    const bool alive = monitor_.service_alive();
+    const auto& status = scene_.view().status();
+    if (status && (!alive || status->stamp().sequence() != status_sequence_)) {
+      status_sequence_ = status->stamp().sequence();
+      if (alive) status_heard_ = now;
+    }
+    const bool is_fresh = alive && status && now - status_heard_ < kStatusMax;
+    site_.SetReadiness({.is_ready = is_fresh,
+                        .text = is_fresh ? client::Verdict(scene_.view()).front()
+                                : alive  ? "no status of the service has come for a while: it hangs"
+                                         : "no service of this world is heard"});
+    const bool is_new = scene_.Publish({.service_alive = alive,
+                                        .contacts_missed = monitor_.contacts_missed(),
+                                        .unreadable = monitor_.unreadable()});
+    if (is_new) server_.Wake();
+    if (now < metrics_due_) return;
+    metrics_due_ = now + kMetricsPeriod;
+    site_.SetMetrics(
+        MakePayload(WorldMetrics(scene_.view(), {.world = options_.monitor.world,
+                                                 .version = client::LibraryVersion(),
+                                                 .service_up = is_fresh,
+                                                 .viewers = viewers_,
+                                                 .contacts_missed = monitor_.contacts_missed()})));
+  }
+
+  /// While somebody looks, states are fresh.
+  void Watch(Time now) {
+    if (!options_.watch || viewers_ == 0) return watcher_.reset();
+    if (!watcher_) {
+      const client::Place place{options_.monitor.world, options_.monitor.domain,
+                                options_.monitor.credentials};
+      watcher_ = std::make_unique<client::AgentsWatcher>(client::ConnectWatcher(place),
+                                                         Seconds(1 / options_.rate_hz));
+    }
+    watcher_->Repeat(now);
+  }
+
+  const GatewayOptions& options_;
+  const std::unique_ptr<const PageFiles> page_;
+  Board board_;
+  ShapeStore shapes_;
+  Site site_;
+  std::atomic<int> viewers_ = 0;
+  Scene scene_;
+  client::MessageMonitor monitor_;
+  std::unique_ptr<client::AgentsWatcher> watcher_;
+  std::uint64_t status_sequence_ = 0;
+  Time status_heard_{}, metrics_due_{};
+  WebServer server_;  // last: what it asks is there
+};
+
+}  // namespace
+
+int RunGateway(const GatewayOptions& options, const std::function<bool()>& stopped) {
+  std::cerr << "collision-gateway: "
+            << client::PlaceText(options.monitor.world, options.monitor.domain) << '\n';
+  Gateway gateway(options);
+  const std::string host = options.web.address.find(':') == std::string::npos
+                               ? options.web.address
+                               : "[" + options.web.address + "]";
+  std::cout << "http://" << host << ":" << gateway.port() << "/" << std::endl;
+  gateway.Run(stopped);
+  return client::kExitOk;
+}
+
+}  // namespace collision::gateway

@@ -1,0 +1,155 @@
+// The page of collision-gateway: what is where, and which keys do what.
+import { LiveSource } from "./source/live.js";
+import { World } from "./model/world.js";
+import { drawLegend } from "./view/legend.js";
+import { PAGES, Pages } from "./view/pages.js";
+import { Scene3D } from "./view/scene3d.js";
+import { Timeline } from "./view/timeline.js";
+import { seconds, worldTime } from "./view/format.js";
+
+const $ = (id) => document.getElementById(id);
+const TABLES_MS = 500;   // Tables are read, not watched.
+const TABLES_REST = 20;  // Of the time that they take, so that the view moves.
+const REST_MAX_MS = 100; // After a frame, so that messages get their turn.
+
+const world = new World();
+const state = { paused: null, link: "", framed: false, hovered: null };
+const scene = new Scene3D(world, $("scene"), (agent) => choose({ agent }));
+const timeline = new Timeline(world, $("timeline"), $("tip"), (one) => choose({ event: one }),
+  (one, t) => {
+    state.hovered = one ? t : null;
+    scene.wanted = true;
+  });
+const pages = new Pages(world, $("page"), document.querySelector("nav"), choose);
+
+/** The time that is shown: that of the pointer over a bar, of the slider, or now. */
+const shownTime = () => state.hovered ?? state.paused ?? world.time();
+
+function choose({ agent, event }) {
+  if (agent !== undefined) scene.chosen = agent;
+  if (event) {
+    timeline.chosen = event;
+    pages.showEvent(event);
+    scene.flyTo(event.event, state.paused ?? world.time());
+    location.hash = `event=${encodeURIComponent(event.link)}`;
+  } else if (agent) {
+    pages.showAgent(agent);
+    location.hash = `agent=${encodeURIComponent(agent.key)}`;
+  }
+  scene.wanted = true;
+}
+
+/** A link to an event or an agent counts as soon as it is there. */
+function followLink() {
+  const link = new URLSearchParams(location.hash.slice(1));
+  const agent = link.get("agent") && world.agentByKey(link.get("agent"));
+  const event = link.get("event") && world.eventByLink(link.get("event"));
+  if (link.get("page") && PAGES.some(({ id }) => id === link.get("page"))) {
+    pages.show(link.get("page"));
+  }
+  if (!agent && !event) return !link.get("agent") && !link.get("event");
+  choose(event ? { event } : { agent });
+  return true;
+}
+let linked = false;
+addEventListener("hashchange", () => (linked = followLink()));
+
+function pause(t) {
+  state.paused = t;
+  $("pause").setAttribute("aria-pressed", t !== null);
+  $("pause").textContent = t === null ? "Pause" : "Go on";
+  if (t === null) $("scrub").value = 0;
+  scene.wanted = true;
+}
+
+function tellVerdict() {
+  const text = state.link || (world.connection && !world.connection.service_alive
+    ? "no service of this world is heard" : world.connection?.unreadable ??
+      world.status?.verdict?.[0] ?? "waiting for the service …");
+  if ($("verdict").textContent !== text) $("verdict").textContent = text;
+  $("verdict").classList.toggle("trouble", !text.startsWith("WELL") && !text.startsWith("waiting"));
+}
+
+function toggle(id, value) {
+  $(id).setAttribute("aria-pressed", value);
+  scene.wanted = true;
+  return value;
+}
+
+const actions = {
+  frame: () => scene.frame(shownTime()),
+  follow: () => (scene.follows = toggle("follow", !scene.follows)),
+  labels: () => (scene.shows.labels = toggle("labels", !scene.shows.labels)),
+  trails: () => (scene.shows.trails = toggle("trails", !scene.shows.trails)),
+  pause: () => pause(state.paused === null ? world.time() : null),
+  live: () => pause(null),
+};
+for (const [id, act] of Object.entries(actions)) $(id).addEventListener("click", act);
+const KEYS = { f: "frame", g: "follow", l: "labels", t: "trails", " ": "pause", End: "live" };
+addEventListener("keydown", (key) => {
+  if (key.target.matches("input, button, [role=tab]") || key.ctrlKey || key.metaKey) return;
+  if (key.key === "/") {
+    key.preventDefault();
+    return $("search").focus();
+  }
+  if (key.key === "ArrowLeft" || key.key === "ArrowRight") {
+    const step = (key.shiftKey ? 1 : 0.1) * (key.key === "ArrowLeft" ? -1 : 1);
+    return pause((state.paused ?? world.time()) + step);
+  }
+  if (!(key.key in KEYS)) return;
+  key.preventDefault();
+  actions[KEYS[key.key]]();
+});
+$("scrub").addEventListener("input", () => {
+  const back = Number($("scrub").value), now = world.time();
+  if (now !== null) pause(back === 0 ? null : now + back);
+});
+$("ahead").addEventListener("input", () => {
+  scene.aheadS = Number($("ahead").value);
+  $("ahead-text").textContent = seconds(scene.aheadS, 1);
+  scene.wanted = true;
+});
+$("search").addEventListener("input", () => pages.filter($("search").value));
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+  scene.takeColors();
+  drawLegend($("legend"));
+});
+
+world.addEventListener("change", () => {
+  scene.wanted = true;
+  if (!state.framed && [...world.agents.values()].some((agent) => agent.history.newest)) {
+    state.framed = true;
+    scene.frame(world.time());
+  }
+  if (!linked) linked = followLink();
+});
+
+let tablesDue = 0;
+function draw(began) {
+  const t = shownTime();
+  const moves = state.paused === null && state.hovered === null && world.now?.rate > 0;
+  if (scene.wanted || moves) {
+    scene.drawnAt = t;
+    if (state.paused !== null || state.hovered !== null) world.findLevels(t);
+    scene.draw(t);
+    timeline.draw(state.paused ?? world.time());
+  }
+  const now = world.time();
+  $("clock").textContent = worldTime(t);
+  $("scrub-text").textContent = state.paused === null ? "live" : seconds(state.paused - now);
+  tellVerdict();
+  if (began >= tablesDue) {
+    const from = performance.now();
+    pages.draw(state.paused ?? now);
+    tablesDue = began + TABLES_MS + TABLES_REST * (performance.now() - from);
+  }
+  const took = performance.now() - began;
+  setTimeout(() => requestAnimationFrame(draw), Math.min(REST_MAX_MS, took));
+}
+
+drawLegend($("legend"));
+const source = new LiveSource(world, (text) => (state.link = text));
+requestAnimationFrame(draw);
+
+// For tests and the curious: what is drawn, in numbers.
+window.collision = { world, scene, timeline, source, shownTime };

@@ -1,0 +1,190 @@
+// The world as far as it was told: agents with their past, events, the service.
+import { History, positionAt } from "./history.js";
+
+const STATES_MAX = 400000;  // Of all agents together.
+const STATES_LEAST = 16;    // Of one.
+const STATUSES_MAX = 1300;  // Ten minutes at the usual pace.
+const EVENTS_MAX = 20000;
+const SOON_S = 2;           // A contact that may begin within it is near.
+
+/** Levels of alert, as the legend has them; a higher one counts. */
+export const LEVELS = ["calm", "possible", "soon", "contact"];
+
+/** A name that stays the same from one run of the page to the next. */
+export const agentKey = (reference) => `${reference.simulator ?? "?"}/${reference.name ?? "?"}`;
+export const eventLink = (event) =>
+  [agentKey(event.lower), agentKey(event.higher), event.contact, event.level ?? ""].join("+");
+
+export class World extends EventTarget {
+  constructor() {
+    super();
+    this.reset();
+  }
+
+  reset() {
+    this.agents = new Map();  // by number
+    this.byId = new Map();    // number, by "SIMULATOR.slot"
+    this.waiting = new Map(); // states of agents that are not described yet, by number
+    this.events = new Map();  // by key
+    this.standing = new Set(); // of these, what may be, is, or was a contact
+    this.shapes = new Set();  // hashes that can be fetched
+    this.status = null;
+    this.statuses = [];
+    this.earliest = null;
+    this.connection = null;
+    this.now = null;          // { t [s], heard [ms], rate }
+    this.version = 0;
+  }
+
+  take(item) {
+    switch (item.item) {
+      case "agent": return this.takeAgent(item.number, item.agent);
+      case "event": return this.takeEvent(item);
+      case "status":
+        this.status = item.status;
+        this.statuses.push({ heard: performance.now(), status: item.status });
+        if (this.statuses.length > STATUSES_MAX) this.statuses.shift();
+        return this.takeNow(item.status.now_s);
+      case "now": return this.takeNow(item.now_s);
+      case "earliest": this.earliest = item.earliest; return;
+      case "connection": this.connection = item; return;
+      case "shape": this.shapes.add(item.hash); return;
+    }
+  }
+
+  takeAgent(number, info) {
+    const known = this.agents.get(number);
+    if (!info) {
+      if (known) this.byId.delete(idOf(known.info));
+      this.agents.delete(number);
+      return;
+    }
+    const isSame = known && known.info.generation === info.generation &&
+        known.info.run === info.run;
+    const agent = isSame ? known : { number, history: new History(this.limit()), level: 0 };
+    agent.info = info;
+    agent.key = agentKey(info);
+    agent.declaration = info.declaration ?? {};
+    const waiting = this.waiting.get(number);
+    if (waiting) agent.history.add(waiting);
+    this.waiting.delete(number);
+    this.agents.set(number, agent);
+    this.byId.set(idOf(info), number);
+  }
+
+  limit() {
+    return Math.max(STATES_LEAST, Math.floor(STATES_MAX / (this.agents.size + 1)));
+  }
+
+  takeState(number, state) {
+    const agent = this.agents.get(number);
+    if (!state) return;
+    if (!agent) return void this.waiting.set(number, state);
+    agent.history.limit = this.limit();
+    agent.history.add(state);
+  }
+
+  takeEvent({ key, event, revisions, superseded }) {
+    const known = this.events.get(key);
+    const one = Object.assign(known ?? {}, { key, event, revisions, link: eventLink(event) });
+    // A forecast that came to nothing is of no interest any more, and there are many.
+    one.isIdle = superseded || event.status === "dismissed" || event.status === "withdrawn";
+    this.events.set(key, one);
+    one.isIdle ? this.standing.delete(one) : this.standing.add(one);
+    if (this.events.size > EVENTS_MAX) {
+      const oldest = this.events.values().next().value;
+      this.events.delete(oldest.key);
+      this.standing.delete(oldest);
+    }
+  }
+
+  takeNow(t) {
+    if (t === null) return;
+    const heard = performance.now(), last = this.now;
+    if (last && t === last.t) return;
+    let rate = last?.rate ?? 0;
+    if (last && t > last.t && heard > last.heard) {
+      const seen = (t - last.t) / (heard - last.heard) * 1000;
+      rate = rate === 0 ? seen : rate + (seen - rate) * 0.2;
+    }
+    this.now = { t, heard, rate };
+  }
+
+  /** All of a message has been taken. */
+  arrived() {
+    ++this.version;
+    this.findLevels();
+    this.dispatchEvent(new Event("change"));
+  }
+
+  /** The world's time, carried on at its pace for as long as it may take to be told anew. */
+  time() {
+    if (!this.now) return null;
+    const elapsed = Math.min(1000, performance.now() - this.now.heard);
+    return this.now.t + (this.now.rate * elapsed) / 1000;
+  }
+
+  agentOf(reference) {
+    return this.agents.get(this.byId.get(idOf(reference)));
+  }
+
+  agentByKey(key) {
+    for (const agent of this.agents.values()) if (agent.key === key) return agent;
+    return undefined;
+  }
+
+  eventByLink(link) {
+    for (const one of this.events.values()) if (one.link === link) return one;
+    return undefined;
+  }
+
+  /** How near to a contact each agent is at `t`, by the events that are open then. */
+  findLevels(t = this.now?.t) {
+    for (const agent of this.agents.values()) agent.level = 0;
+    if (t == null) return;
+    for (const { event } of this.standing) {
+      const level = levelAt(event, t);
+      if (level === 0) continue;
+      for (const side of [event.lower, event.higher]) {
+        const agent = this.agentOf(side);
+        if (agent) agent.level = Math.max(agent.level, level);
+      }
+    }
+  }
+
+  /** The box of all agents at `t`, as { center, radius }. */
+  extent(t) {
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+    const p = [0, 0, 0];
+    let radius = 1;
+    for (const agent of this.agents.values()) {
+      const state = agent.history.at(t);
+      if (!state || agent.declaration.half_space) continue;
+      positionAt(state, t, p);
+      const own = agent.declaration.radius_m ?? 0;
+      radius = Math.max(radius, own);
+      for (let k = 0; k < 3; ++k) {
+        low[k] = Math.min(low[k], p[k] - own);
+        high[k] = Math.max(high[k], p[k] + own);
+      }
+    }
+    if (low[0] === Infinity) return { center: [0, 0, 0], radius: 10 };
+    const center = low.map((x, k) => (x + high[k]) / 2);
+    return { center, radius: Math.max(radius, Math.hypot(...high.map((x, k) => x - low[k])) / 2) };
+  }
+}
+
+const idOf = (reference) => `${reference.simulator_id}.${reference.slot}`;
+
+/** The level of an event at `t`: index into LEVELS. */
+export function levelAt(event, t) {
+  const begin = event.begin, end = event.end;
+  const isOver = end?.latest_s != null && end.latest_s < t;
+  if (event.status === "confirmed" || event.status === "ended" || event.status === "undecided") {
+    if (isOver) return 0;
+    if (begin.latest_s != null && begin.latest_s <= t) return event.level ? 2 : 3;
+    return begin.earliest_s - t < SOON_S ? 2 : 1;
+  }
+  if (event.status !== "possible") return 0;
+  return begin.earliest_s - t < SOON_S && event.expected?.outcome === "touch" ? 2 : 1;
+}

@@ -1,0 +1,56 @@
+// The world as it is now, from the gateway.
+import { readItems } from "./items.js";
+
+const PROTOCOL = "collision.page.v1";
+const SILENCE_MS = 3000;  // A gateway that says nothing for so long is told of.
+const AGAIN_MS = 1000;
+
+/** Keeps a WebSocket open, and hands what comes to the model. */
+export class LiveSource {
+  /** `onLink(text)`: why nothing comes; "": it does. */
+  constructor(model, onLink) {
+    this.model = model;
+    this.onLink = onLink;
+    this.heard = performance.now();
+    this.messages = 0;
+    this.connect();
+    setInterval(() => this.lookAtSilence(), 500);
+  }
+
+  connect() {
+    const address = new URL("ws", location.href);
+    address.protocol = address.protocol.replace("http", "ws");
+    address.hash = "";
+    this.socket = new WebSocket(address, PROTOCOL);
+    this.socket.binaryType = "arraybuffer";
+    this.socket.onopen = () => {
+      this.model.reset();
+      this.heard = performance.now();
+    };
+    this.socket.onmessage = (message) => this.take(message.data);
+    this.socket.onclose = () => {
+      this.onLink("the gateway is not heard; trying again");
+      setTimeout(() => this.connect(), AGAIN_MS);
+    };
+  }
+
+  take(bytes) {
+    this.heard = performance.now();
+    ++this.messages;
+    this.onLink("");
+    readItems(bytes, (item) => this.model.take(item),
+              (number, state) => this.model.takeState(number, state));
+    this.model.arrived();
+    // What is acknowledged has been shown: a page that is not drawn is sent no more.
+    this.socket.send("ack");
+  }
+
+  lookAtSilence() {
+    if (this.socket.readyState !== WebSocket.OPEN) return;
+    // A world that stands still says nothing new, but its service has a status twice a second.
+    if (performance.now() - this.heard > SILENCE_MS) {
+      this.onLink("nothing has come from the gateway for " +
+                  Math.round((performance.now() - this.heard) / 1000) + " s");
+    }
+  }
+}

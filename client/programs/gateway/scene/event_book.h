@@ -1,0 +1,67 @@
+// The events of a world with the history of their brackets.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client/programs/shared/forecast_slots.h"
+#include "client/programs/shared/world_view.h"
+#include "idl/messages.pb.h"
+
+namespace collision::gateway {
+
+/// Keeps each event with what its revisions said, the newest kEventsMax; those that are over go
+/// first. One thread.
+class EventBook {
+ public:
+  static constexpr std::size_t kEventsMax = 4096;
+  /// Of one event; then every second one but the newest is forgotten.
+  static constexpr std::size_t kRevisionsMax = 256;
+
+  void Take(const v1::CollisionEvent& event);
+
+  /// An event for viewers.
+  struct Shown {
+    std::string key;
+    std::string json;  ///< Empty: it is not kept any more.
+  };
+
+  /// Those that have changed since the last call.
+  std::vector<Shown> TakeChanged(const client::WorldView& view);
+
+  std::size_t size() const { return events_.size(); }
+
+ private:
+  using Key = client::EventKey;
+
+  struct Revision {
+    std::int64_t now_ns = 0;
+    v1::TimeBracket begin, end;
+    v1::EventStatus status = v1::EVENT_POSSIBLE;
+  };
+
+  struct Entry {
+    std::uint64_t number = 0;  ///< Of the event, for its key.
+    v1::CollisionEvent newest;
+    std::vector<Revision> revisions;
+    bool is_superseded = false;  ///< A forecast of which nothing more will be told.
+  };
+
+  void Supersede(const Key& key);
+  void DropOldest();
+  static std::string JsonOf(const Entry& entry, const client::WorldView& view);
+
+  std::map<Key, Entry> events_;
+  std::map<std::uint64_t, Key> by_age_;  ///< By the number of the event.
+  std::set<Key> changed_;
+  client::ForecastSlots slots_;
+  std::vector<std::string> dropped_;
+  std::uint64_t last_ = 0;
+};
+
+}  // namespace collision::gateway

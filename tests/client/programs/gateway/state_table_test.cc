@@ -1,0 +1,123 @@
+// Goal:   what the page unpacks is what was told, as exactly as eyes need, also of a satellite.
+// Method: the packed bytes are read by the layout that the header documents.
+#include "client/programs/gateway/scene/state_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace collision::gateway {
+namespace {
+
+constexpr std::int64_t kSecondNs = 1'000'000'000;
+
+template <class Value>
+Value At(const std::string& bytes, std::size_t at) {
+  Value value;
+  std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
+
+v1::AgentStates StatesOf(std::uint64_t simulator, std::uint32_t run = 1) {
+  v1::AgentStates states;
+  states.set_simulator_id(simulator);
+  states.set_run(run);
+  return states;
+}
+
+v1::AgentState* Add(v1::AgentStates* states, std::uint32_t slot, double x_m,
+                    std::int64_t stamp_ns) {
+  v1::AgentState* state = states->add_states();
+  state->set_slot(slot);
+  state->set_stamp_ns(stamp_ns);
+  state->mutable_position_m()->set_x(x_m);
+  state->mutable_orientation()->set_w(1);
+  return state;
+}
+
+TEST(StateTable, PacksWhatWasTold) {
+  StateTable table;
+  v1::AgentStates states = StatesOf(7);
+  v1::AgentState* state = Add(&states, 3, 6.9e6, 100 * kSecondNs);
+  state->mutable_velocity_m_s()->set_y(7500.25);
+  state->mutable_acceleration_m_s2()->set_z(-8.2);
+  state->mutable_angular_velocity_rad_s()->set_x(0.5);
+  state->mutable_orientation()->set_w(0.6);
+  state->mutable_orientation()->set_z(-0.8);
+  state->set_position_error_m(12);
+  state->set_velocity_error_m_s(0.25);
+  Add(&states, 4, -6.9e6, 99 * kSecondNs);
+  table.Take(states);
+  v1::Clearance clearance;
+  clearance.set_simulator_id(7);
+  clearance.add_agents()->set_slot(3);
+  clearance.mutable_agents(0)->set_clear_until_ns(102 * kSecondNs);
+  clearance.mutable_agents(0)->set_not_clear(true);
+  table.Take(clearance);
+
+  const auto chunks = table.TakeChanged();
+  ASSERT_EQ(chunks.size(), 1u);
+  const std::string& bytes = chunks[0].bytes;
+  ASSERT_EQ(bytes.size(), 64u + 2 * 64u);
+  EXPECT_EQ(At<std::uint32_t>(bytes, 0), 0u);
+  EXPECT_EQ(At<std::uint32_t>(bytes, 4), 2u);
+  EXPECT_EQ(At<double>(bytes, 8), 100);
+  const double step = At<double>(bytes, 40);
+  EXPECT_LT(step, 0.005) << "half a centimetre across the diameter of an orbit";
+  const auto x_m = [&](std::size_t agent) {
+    return At<double>(bytes, 16) + step * At<std::int32_t>(bytes, 64 + 64 * agent + 8);
+  };
+  EXPECT_NEAR(x_m(0), 6.9e6, step);
+  EXPECT_NEAR(x_m(1), -6.9e6, step);
+  EXPECT_EQ(At<std::uint32_t>(bytes, 64), 1u | 2u);
+  EXPECT_EQ(At<std::int32_t>(bytes, 68), 0);
+  EXPECT_EQ(At<std::int32_t>(bytes, 128 + 4), -1'000'000) << "a second earlier, in us";
+  EXPECT_EQ(At<float>(bytes, 64 + 24), 7500.25f);
+  EXPECT_NEAR(At<std::int16_t>(bytes, 64 + 36) * At<double>(bytes, 48), -8.2, 3e-4);
+  EXPECT_NEAR(At<std::int16_t>(bytes, 64 + 38) * At<double>(bytes, 56), 0.5, 2e-5);
+  EXPECT_NEAR(At<std::int16_t>(bytes, 64 + 44) / 32000.0, 0.6, 4e-5);
+  EXPECT_NEAR(At<std::int16_t>(bytes, 64 + 50) / 32000.0, -0.8, 4e-5);
+  EXPECT_EQ(At<float>(bytes, 64 + 52), 12);
+  EXPECT_EQ(At<float>(bytes, 64 + 56), 0.25f);
+  EXPECT_EQ(At<float>(bytes, 64 + 60), 2);
+  EXPECT_EQ(At<float>(bytes, 128 + 60), -std::numeric_limits<float>::infinity());
+}
+
+TEST(StateTable, TellsOnlyChunksThatChanged) {
+  StateTable table;
+  v1::AgentStates states = StatesOf(7);
+  for (std::uint32_t slot = 0; slot < 3 * StateTable::kStatesOfAChunk; ++slot) {
+    Add(&states, slot, slot, 0);
+  }
+  table.Take(states);
+  EXPECT_EQ(table.TakeChanged().size(), 3u);
+  EXPECT_TRUE(table.TakeChanged().empty());
+  v1::AgentStates one = StatesOf(7);
+  Add(&one, StateTable::kStatesOfAChunk + 5, 1, 1);
+  table.Take(one);
+  const auto chunks = table.TakeChanged();
+  ASSERT_EQ(chunks.size(), 1u);
+  EXPECT_EQ(chunks[0].number, 1u);
+  EXPECT_EQ(At<std::uint32_t>(chunks[0].bytes, 0), StateTable::kStatesOfAChunk);
+}
+
+TEST(StateTable, AnAgentThatLeftHasNoStateAndKeepsItsNumber) {
+  StateTable table;
+  v1::AgentStates states = StatesOf(7, 2);
+  Add(&states, 0, 1, 1);
+  table.Take(states);
+  EXPECT_EQ(table.NumberOf(7, 0), 0u);
+  EXPECT_EQ(table.NumberOf(8, 0), 1u);
+  EXPECT_EQ(table.NumberOf(7, 0), 0u);
+  v1::AgentStates old = StatesOf(7, 1);
+  Add(&old, 0, 99, 99);
+  table.Take(old);
+  EXPECT_EQ(At<double>(table.TakeChanged().at(0).bytes, 16), 1) << "an earlier run says nothing";
+  table.Clear(7, 0);
+  EXPECT_EQ(At<std::uint32_t>(table.TakeChanged().at(0).bytes, 64), 0u);
+}
+
+}  // namespace
+}  // namespace collision::gateway

@@ -1,0 +1,206 @@
+// Goal:   the page shows the world as it is: every agent, each contact in its bracket, what is
+//         wrong; it asks no other host and makes no error.
+// Method: the real programs and Debian's chromium; collisionctl says what is true.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { writeFileSync } from "node:fs";
+import http from "node:http";
+import { after, before, test } from "node:test";
+import { launch, openPage } from "./browser.mjs";
+import { TestWorld, until } from "./world.mjs";
+
+const PROMTOOL = process.env.COLLISION_PROMTOOL;
+const TOLD_WITHIN_MS = 3000;
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser.close());
+
+/** A world with two that meet head-on at 4.5 s, each a simulator of its own. */
+async function twoThatMeet(domain) {
+  const world = new TestWorld(domain, "clock { simulators_awaited: 2 }\n");
+  await world.startService();
+  const gateway = await world.startGateway();
+  const page = await openPage(browser, gateway.address);
+  for (const [name, x, v] of [["left", -5, 1], ["right", 5, -1]]) {
+    const rows = Array.from({ length: 13 }, (_, t) => `${t},${name},${x + v * t},0,0,${v},0,0`);
+    const file = `${world.folder}/${name}.csv`;
+    writeFileSync(file, `time_s,agent_id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n${rows.join("\n")}\n`);
+    world.start("trajectory-player", file, "--simulator", `${name}-sim`, "--radius", "0.5",
+                "--speed", "2", "--linger");
+  }
+  return { world, gateway, page };
+}
+
+test("a contact appears at its time, in its bracket, and can be looked at", async () => {
+  const { world, page } = await twoThatMeet(140);
+  try {
+    await page.waitForFunction(() => collision.world.agents.size === 2);
+    const seen = await page.waitForFunction(() => [...collision.world.standing].find(({ event }) =>
+      event.status === "ended")).then((handle) => handle.jsonValue());
+    const [told] = (await world.ask("events", "--json")).filter((one) => one.status === "ended");
+    assert.deepEqual(seen.event.begin, told.begin);
+    assert.deepEqual(seen.event.end, told.end);
+    assert.ok(seen.event.begin.earliest_s <= 4.5 && seen.event.begin.latest_s >= 4.5);
+    assert.ok(seen.revisions.length >= 2, "with what was known before");
+
+    // In the table, and from there to the event.
+    await page.getByRole("row", { name: /left – right ended/ }).click();
+    await page.getByText(/left \(left-sim\) and right \(right-sim\) began to touch/).waitFor();
+    assert.match(page.url(), /#event=/);
+
+    // Hovering over its bar shows that instant, and says what is known.
+    const bar = await page.evaluate(() => {
+      const { timeline } = collision;
+      const one = timeline.bars.find(({ one: { event } }) => event.status === "ended");
+      const box = timeline.canvas.getBoundingClientRect();
+      return { x: box.left + (one.from + one.to) / 2, y: box.top + one.y + 8 };
+    });
+    await page.mouse.move(bar.x, bar.y);
+    await page.getByRole("tooltip").getByText("ended: begins").waitFor();
+    const shown = await page.evaluate(() => collision.shownTime());
+    assert.ok(shown > seen.event.begin.earliest_s - 0.2 && shown < seen.event.end.latest_s + 0.2,
+              `the world is shown at ${shown}`);
+
+    // Scrubbing back: the two are where they were.
+    await page.mouse.move(5, 5);
+    const apart = await page.evaluate(async () => {
+      const scrub = document.getElementById("scrub");
+      scrub.value = 1 - collision.world.time();  // one second after the begin
+      scrub.dispatchEvent(new Event("input"));
+      await new Promise((resolve) => setTimeout(resolve, 300));
+      const t = collision.shownTime();
+      const [a, b] = [...collision.world.agents.values()].map(({ history }) => {
+        const state = history.at(t);
+        return state.p[0] + state.v[0] * (t - state.t);
+      });
+      return { t, gap: Math.abs(a - b) };
+    });
+    assert.ok(Math.abs(apart.gap - (10 - 2 * apart.t)) < 0.1, JSON.stringify(apart));
+    assert.deepEqual(page.faults, []);
+  } finally {
+    await world.end();
+  }
+});
+
+test("a link leads to an event, and a reader of the screen finds names", async () => {
+  const { world, gateway, page } = await twoThatMeet(141);
+  try {
+    await page.waitForFunction(() => [...collision.world.standing].some(({ event }) =>
+      event.status === "ended"));
+    const link = await page.evaluate(() => [...collision.world.standing][0].link);
+    const other = await openPage(browser, `${gateway.address}#event=${encodeURIComponent(link)}`);
+    await other.getByRole("heading", { name: /left \(left-sim\) – right/ }).waitFor();
+    const tree = await other.locator("body").ariaSnapshot();
+    for (const name of ["World time", "Pause", "Timeline", "Search", "Why is it silent?",
+                        "Contacts over time"]) {
+      assert.ok(tree.includes(name), `${name} in ${tree}`);
+    }
+    // On a telephone nothing runs off the side.
+    const small = await openPage(browser, gateway.address, { width: 390, height: 844 });
+    await small.waitForFunction(() => collision.world.agents.size === 2);
+    const width = await small.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(width <= 390, `${width} pixels wide`);
+    assert.deepEqual([...other.faults, ...small.faults], []);
+  } finally {
+    await world.end();
+  }
+});
+
+test("a service that dies is told of, and found again", async () => {
+  const world = new TestWorld(142, "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
+  try {
+    const service = await world.startService();
+    const gateway = await world.startGateway();
+    const page = await openPage(browser, gateway.address);
+    const verdict = () => page.locator("#verdict").textContent();
+    await until("it is well", async () => (await verdict()).startsWith("WELL"));
+    assert.equal((await fetch(`${gateway.address}readyz`)).status, 200);
+
+    service.kill("SIGKILL");
+    const killed = Date.now();
+    await until("it is told", async () => (await verdict()).includes("no service"));
+    assert.ok(Date.now() - killed < TOLD_WITHIN_MS + 1000, `${Date.now() - killed} ms`);
+    assert.equal((await fetch(`${gateway.address}readyz`)).status, 503);
+    await page.getByRole("tab", { name: "Why is it silent?" }).click();
+    await page.getByText("The gateway hears no service of its world.").waitFor();
+
+    await world.startService();
+    await until("it is well again", async () => (await verdict()).startsWith("WELL"));
+
+    // The gateway itself: the page says so and tries again.
+    page.expectsErrors = true;
+    const { port } = new URL(gateway.address);
+    gateway.kill("SIGKILL");
+    await until("the gateway is gone", async () => (await verdict()).includes("gateway"));
+    await world.startGateway(port);
+    await until("it is back", async () => (await verdict()).startsWith("WELL"));
+    assert.deepEqual(page.faults, []);
+  } finally {
+    await world.end();
+  }
+});
+
+test("ten thousand agents are shown without long tasks", async () => {
+  const world = new TestWorld(143, "agents_max: 20000\npairs_max: 1000000\n" +
+                                   "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
+  try {
+    await world.startService();
+    // At ten times a second service and swarm take both of two processors, and the browser none.
+    const gateway = await world.startGateway("0", "--rate", "2");
+    world.start("drone-swarm", "--drones", "10000", "--simulator", "swarm", "--real-time", "--rate",
+                "10", "--box", "60000,60000,6000", "--places", "10000", "--seconds", "200");
+    const page = await openPage(browser, gateway.address);
+    const drawn = () => collision.scene.renderer.info.render.points;
+    await page.waitForFunction(() => collision.world.agents.size === 10000, undefined,
+                               { timeout: 60000 });
+    await until("all are drawn", async () => (await page.evaluate(drawn)) === 10000, 20000);
+    // Other tests may have the processors: of several spans one without their work will do.
+    await until("four seconds without a task of 200 ms", async () => {
+      const seen = await page.evaluate(async () => {
+        const tasks = [], before = collision.source.messages;
+        const observer = new PerformanceObserver((list) => {
+          for (const entry of list.getEntries()) tasks.push(entry.duration);
+        });
+        observer.observe({ type: "longtask" });
+        await new Promise((resolve) => setTimeout(resolve, 4000));
+        observer.disconnect();
+        return { longest: Math.max(0, ...tasks), messages: collision.source.messages - before };
+      });
+      return seen.longest < 200 && seen.messages >= 4;
+    });
+    // One draw for the agents, and few for the rest, however many there are.
+    const calls = await page.evaluate(() => collision.scene.renderer.info.render.calls);
+    assert.ok(calls <= 130, `${calls} draw calls`);
+    assert.deepEqual(page.faults, []);
+  } finally {
+    await world.end();
+  }
+});
+
+test("metrics are what Prometheus takes, and dangerous requests are refused", async () => {
+  const world = new TestWorld(144, "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
+  try {
+    await world.startService();
+    const gateway = await world.startGateway();
+    await until("it is ready", async () => (await fetch(`${gateway.address}readyz`)).ok);
+    const text = await until("a service is in the metrics", async () => {
+      const all = await (await fetch(`${gateway.address}metrics`)).text();
+      return all.includes("collision_service_info{") && all;
+    });
+    execFileSync(PROMTOOL, ["check", "metrics"], { input: text });
+    const statusWith = (headers, path = "") => new Promise((resolve) =>
+      http.get(gateway.address + path, { headers }, (answer) => {
+        answer.resume();
+        resolve(answer.statusCode);
+      }));
+    assert.equal(await statusWith({}), 200);
+    assert.equal(await statusWith({ host: "evil.example" }), 421);
+    assert.equal(await statusWith({ origin: "https://evil.example" }), 403);
+    assert.equal(await statusWith({}, "%2e%2e/%2e%2e/etc/passwd"), 404);
+    assert.equal(await statusWith({}, "shapes/00"), 404);
+    assert.equal(await statusWith({}, "version"), 200);
+  } finally {
+    await world.end();
+  }
+});
