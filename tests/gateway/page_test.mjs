@@ -3,11 +3,11 @@
 // Method: the real programs and Debian's chromium; collisionctl says what is true.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import http from "node:http";
 import { after, before, test } from "node:test";
 import { launch, openPage } from "./browser.mjs";
-import { TestWorld, until } from "./world.mjs";
+import { source, TestWorld, until } from "./world.mjs";
 
 const PROMTOOL = process.env.COLLISION_PROMTOOL;
 const TOLD_WITHIN_MS = 3000;
@@ -83,6 +83,36 @@ test("a contact appears at its time, in its bracket, and can be looked at", asyn
   }
 });
 
+/** The demo of a scene, as ./run demo --view starts it. */
+for (const [scene, speed] of [["iridium-cosmos", 120], ["spaceships", 4]]) {
+  test(`the contacts of ${scene} are shown as they are told`, async () => {
+    const world = new TestWorld(0);
+    try {
+      const words = [scene, "--view", "--port", "0", "--arguments", `--speed ${speed}`];
+      const runner = world.start("scene-runner", ...words);
+      const link = await until("the link", () => runner.said.match(/http:\S+/)?.[0]);
+      const page = await openPage(browser, link);
+      const ended = await page.waitForFunction(() =>
+        [...collision.world.standing].find(({ event }) => event.status === "ended"), undefined,
+        { timeout: 60000 });
+      const seen = await ended.jsonValue();
+      world.environment.COLLISION_WORLD = `${scene}-${runner.pid}`;
+      world.environment.COLLISION_DOMAIN = String(1 + runner.pid % 200);
+      const told = (await world.ask("events", "--json")).find((one) =>
+        one.status === "ended" && one.contacts_sequence === seen.event.contacts_sequence);
+      assert.ok(told, "the same contact is heard by collisionctl");
+      for (const part of ["begin", "end", "lower", "higher"]) {
+        assert.deepEqual(seen.event[part], told[part]);
+      }
+      await page.getByRole("row", { name: new RegExp(`${told.lower.name} – .* ended`) }).first()
+        .waitFor();
+      assert.deepEqual(page.faults, []);
+    } finally {
+      await world.end();
+    }
+  });
+}
+
 test("a link leads to an event, and a reader of the screen finds names", async () => {
   const { world, gateway, page } = await twoThatMeet(141);
   try {
@@ -141,6 +171,78 @@ test("a service that dies is told of, and found again", async () => {
   }
 });
 
+test("a viewer that stands still costs nothing, and goes on with what is newest", async () => {
+  const world = new TestWorld(146, "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
+  try {
+    await world.startService();
+    const gateway = await world.startGateway();
+    world.start("drone-swarm", "--drones", "20", "--simulator", "swarm", "--real-time", "--rate",
+                "10", "--box", "5000,5000,500", "--seconds", "200");
+    const page = await openPage(browser, gateway.address);
+    await page.waitForFunction(() => collision.world.agents.size === 20);
+    // It reads, and acknowledges nothing.
+    await page.evaluate(() => new Promise((resolve) => {
+      window.still = new WebSocket(new URL("ws", location.href.replace("http", "ws")),
+                                   "collision.page.v1");
+      window.still.messages = [];
+      window.still.binaryType = "arraybuffer";
+      window.still.onmessage = ({ data }) => window.still.messages.push(data);
+      window.still.onopen = resolve;
+    }));
+    const memory = () => Number(readFileSync(`/proc/${gateway.pid}/statm`, "utf8").split(" ")[1]);
+    const counts = () => page.evaluate(() => [window.still.messages.length,
+                                              collision.source.messages]);
+    await until("it has got two", async () => (await counts())[0] === 2);
+    const [, before] = await counts();
+    const pagesBefore = memory();
+    await until("the other one has got 50 more", async () => (await counts())[1] > before + 50);
+    assert.equal((await counts())[0], 2, "nothing is sent that nobody looks at");
+    const grown = (memory() - pagesBefore) * 4096;
+    assert.ok(grown < 8e6, `the gateway has grown by ${grown} bytes`);
+    // When it goes on it hears what is true now, not what was meanwhile.
+    const newest = await page.evaluate(async () => {
+      window.still.send("ack");
+      window.still.send("ack");
+      const { readItems } = await import("/source/items.js");
+      let now = null;
+      while (window.still.messages.length < 3) await new Promise((go) => setTimeout(go, 10));
+      readItems(window.still.messages[2], (item) => {
+        if (item.item === "now") now = item.now_s;
+      }, () => {});
+      return collision.world.now.t - now;
+    });
+    assert.ok(Math.abs(newest) < 2, `what it hears first is ${newest} s old`);
+    assert.deepEqual(page.faults, []);
+  } finally {
+    await world.end();
+  }
+});
+
+test("a service that hangs is told of, and one that goes on is found", async () => {
+  const world = new TestWorld(147, "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
+  try {
+    const service = await world.startService();
+    const gateway = await world.startGateway();
+    const page = await openPage(browser, gateway.address);
+    const verdict = () => page.locator("#verdict").textContent();
+    await until("it is well", async () => (await verdict()).startsWith("WELL"));
+    service.kill("SIGSTOP");
+    const stopped = Date.now();
+    await until("it is told", async () => (await verdict()).includes("no service"));
+    assert.ok(Date.now() - stopped < TOLD_WITHIN_MS + 1000, `${Date.now() - stopped} ms`);
+    service.kill("SIGCONT");
+    await until("it is well again", async () => (await verdict()).startsWith("WELL"));
+    // So is a gateway that hangs.
+    gateway.kill("SIGSTOP");
+    await until("that is told", async () => (await verdict()).includes("nothing has come"));
+    gateway.kill("SIGCONT");
+    await until("it goes on", async () => (await verdict()).startsWith("WELL"));
+    assert.deepEqual(page.faults, []);
+  } finally {
+    await world.end();
+  }
+});
+
 test("ten thousand agents are shown without long tasks", async () => {
   const world = new TestWorld(143, "agents_max: 20000\npairs_max: 1000000\n" +
                                    "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
@@ -154,7 +256,7 @@ test("ten thousand agents are shown without long tasks", async () => {
     const drawn = () => collision.scene.renderer.info.render.points;
     await page.waitForFunction(() => collision.world.agents.size === 10000, undefined,
                                { timeout: 60000 });
-    await until("all are drawn", async () => (await page.evaluate(drawn)) === 10000, 20000);
+    await until("all are drawn", async () => (await page.evaluate(drawn)) === 10000);
     // Other tests may have the processors: of several spans one without their work will do.
     await until("four seconds without a task of 200 ms", async () => {
       const seen = await page.evaluate(async () => {
@@ -178,17 +280,37 @@ test("ten thousand agents are shown without long tasks", async () => {
   }
 });
 
-test("metrics are what Prometheus takes, and dangerous requests are refused", async () => {
-  const world = new TestWorld(144, "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
+test("metrics are what Prometheus takes, and what rules and dashboard ask for", async () => {
+  const { world, gateway, page } = await twoThatMeet(144);
+  try {
+    await page.waitForFunction(() => [...collision.world.standing].some(({ event }) =>
+      event.status === "ended"));
+    const text = await until("simulator and contact are in the metrics", async () => {
+      const all = await (await fetch(`${gateway.address}metrics`)).text();
+      return all.includes('collision_simulator_agents{simulator="left-sim"} 1') &&
+        /collision_contact_bracket_seconds_count [1-9]/.test(all) && all;
+    });
+    execFileSync(PROMTOOL, ["check", "metrics"], { input: text });
+    const folder = source("config/monitoring");
+    for (const words of [["check", "rules", "collision.rules.yml"],
+                         ["test", "rules", "collision.rules.test.yml"]]) {
+      execFileSync(PROMTOOL, words, { cwd: folder });
+    }
+    const there = new Set(text.match(/^collision_\w+/gm));
+    const asked = ["collision.rules.yml", "collision.dashboard.json"].flatMap((file) =>
+      readFileSync(`${folder}/${file}`, "utf8").match(/\bcollision_\w+/g));
+    assert.ok(asked.length > 30);
+    for (const name of new Set(asked)) assert.ok(there.has(name), `${name} is no metric`);
+  } finally {
+    await world.end();
+  }
+});
+
+test("requests that are not ours to answer are refused", async () => {
+  const world = new TestWorld(145, "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
   try {
     await world.startService();
     const gateway = await world.startGateway();
-    await until("it is ready", async () => (await fetch(`${gateway.address}readyz`)).ok);
-    const text = await until("a service is in the metrics", async () => {
-      const all = await (await fetch(`${gateway.address}metrics`)).text();
-      return all.includes("collision_service_info{") && all;
-    });
-    execFileSync(PROMTOOL, ["check", "metrics"], { input: text });
     const statusWith = (headers, path = "") => new Promise((resolve) =>
       http.get(gateway.address + path, { headers }, (answer) => {
         answer.resume();
@@ -200,6 +322,8 @@ test("metrics are what Prometheus takes, and dangerous requests are refused", as
     assert.equal(await statusWith({}, "%2e%2e/%2e%2e/etc/passwd"), 404);
     assert.equal(await statusWith({}, "shapes/00"), 404);
     assert.equal(await statusWith({}, "version"), 200);
+    const many = await fetch(gateway.address, { method: "POST", body: "x".repeat(1 << 17) });
+    assert.equal(many.status, 413);
   } finally {
     await world.end();
   }

@@ -67,11 +67,14 @@ std::string MakeFolder(const std::string& wanted) {
 
 }  // namespace
 
+std::uint32_t OwnDomain() { return 1 + static_cast<std::uint32_t>(getpid()) % kDomains; }
+
 Runner::Runner(const RunnerOptions& options)
     : options_(options),
       scene_(LoadScene(options.folders, options.scene)),
-      world_(options.scene + "-" + std::to_string(getpid())),
-      domain_(options.domain.value_or(1 + static_cast<std::uint32_t>(getpid()) % kDomains)),
+      world_(options.world.empty() ? options.scene + "-" + std::to_string(getpid())
+                                   : options.world),
+      domain_(options.domain.value_or(OwnDomain())),
       folder_(MakeFolder(options.logs)) {
   const auto& processes = scene_.processes();
   const bool person =
@@ -93,9 +96,8 @@ std::string Runner::Path(const std::string& file) const {
   return (fs::path(folder_) / file).string();
 }
 
-void Runner::UseLoopback() const {
-  const fs::path profile =
-      fs::absolute(options_.folders.scenes).parent_path() / "cyclonedds-loopback.xml";
+void UseLoopback(const Folders& folders) {
+  const fs::path profile = fs::absolute(folders.scenes).parent_path() / "cyclonedds-loopback.xml";
   if (getenv("CYCLONEDDS_URI") != nullptr) return;
   if (!fs::exists(profile))
     throw std::runtime_error(profile.string() + ": the network profile does not exist");
@@ -316,7 +318,7 @@ RunResult Runner::Conclude(const checker::Violations& violations, const char* sa
 }
 
 RunResult Runner::Run() {
-  UseLoopback();
+  UseLoopback(options_.folders);
   std::printf("%s: %s\n", options_.scene.c_str(), scene_.title().c_str());
   std::fflush(stdout);
   if (options_.real_time) {

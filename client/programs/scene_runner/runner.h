@@ -18,9 +18,10 @@ struct RunnerOptions {
   Folders folders = DefaultFolders();
   double seconds = 0;  ///< 0: as the scene says.
   bool real_time = false;
-  bool stream = false;  ///< Simulators send every state, not only those the service needs.
-  bool secure = false;  ///< In a secured world, each program with credentials of its own.
-  std::optional<std::uint32_t> domain;  ///< Default: one that depends on this process.
+  bool stream = false;     ///< Simulators send every state, not only those the service needs.
+  bool secure = false;     ///< In a secured world, each program with credentials of its own.
+  std::string world = {};  ///< Empty: one that depends on this process.
+  std::optional<std::uint32_t> domain;  ///< Default: OwnDomain().
   std::string config;        ///< Fields that override the scene's configuration, as protobuf text.
   std::string arguments;     ///< Further ones of every simulator, separated by spaces.
   bool every_event = false;  ///< Print every event, however many.
@@ -28,6 +29,13 @@ struct RunnerOptions {
   std::string json;          ///< File for the report; empty: none.
   std::string logs;          ///< Folder for configuration and logs, kept; empty: a temporary one.
 };
+
+/// A DDS domain that depends on this process.
+std::uint32_t OwnDomain();
+
+/// Sets CYCLONEDDS_URI to the profile of this machine alone, unless it is set. Throws
+/// std::runtime_error if there is no such file.
+void UseLoopback(const Folders& folders);
 
 /// Exit codes of a run.
 enum RunResult { kSatisfied = 0, kNotSatisfied = 1, kInterrupted = 130 };
@@ -48,7 +56,6 @@ class Runner {
   enum class Watch { kEnded, kLeft, kFailed, kInterrupted };
 
   std::string Path(const std::string& file) const;
-  void UseLoopback() const;
   /// The scene's credentials, by a new authority in a folder that is removed with the rest.
   void MakeCredentials() const;
   /// Adds the option that names the folder `of` one program, if the scene is secured.

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "client/programs/scene_runner/runner.h"
+#include "client/programs/scene_runner/view.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/stop_signal.h"
 
@@ -39,8 +40,9 @@ int main(int argc, char** argv) {
   app.add_flag("--real-time", options.real_time, "In real time instead of lock-step");
   app.add_flag("--stream", options.stream,
                "Simulators send every state, not only those that the service needs: to compare");
-  app.add_flag("--secure", options.secure,
-               "In a secured world: each program has credentials of its own, made for this run");
+  CLI::Option* secure = app.add_flag(
+      "--secure", options.secure,
+      "In a secured world: each program has credentials of its own, made for this run");
   app.add_option("--config", options.config,
                  "Fields that override the scene's service configuration, as protobuf text: "
                  "'time_budget_us: 100'");
@@ -53,6 +55,18 @@ int main(int argc, char** argv) {
   app.add_flag("--unjudged", options.unjudged,
                "Leave the checker out: only whether the programs ran to their end counts")
       ->excludes(json);
+  bool view = false;
+  std::uint16_t port = 8787;
+  app.add_flag(
+         "--view", view,
+         "Show it in a browser: starts the gateway, prints its address, and runs the scene at "
+         "the pace of the wall clock until Ctrl-C")
+      ->excludes(json)
+      ->excludes(secure);
+  app.add_option("--port", port, "Port of the gateway, 0 to 65535; 0: any that is free")
+      ->capture_default_str()
+      ->check(WholeBetween(0, 65535))
+      ->needs("--view");
   app.add_option("--logs", options.logs, "Keep configuration, logs and motion logs in this folder");
   app.add_option("--scenes", options.folders.scenes, "Folder of the scenes")->capture_default_str();
   app.add_option("--data", options.folders.data, "Folder of the real data sets")
@@ -71,6 +85,7 @@ int main(int argc, char** argv) {
       std::printf("%s", ListScenes(options.folders).c_str());
       return kSatisfied;
     }
+    if (view) return ViewScene(options, port);
     return Runner(options).Run();
   } catch (const NoSuchScene& error) {
     std::fprintf(stderr, "scene-runner: %s\n", error.what());

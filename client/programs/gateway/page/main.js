@@ -115,6 +115,10 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
   drawLegend($("legend"));
 });
 
+world.addEventListener("anew", () => {
+  pause(null);
+  timeline.chosen = null;
+});
 world.addEventListener("change", () => {
   scene.wanted = true;
   if (!state.framed && [...world.agents.values()].some((agent) => agent.history.newest)) {
@@ -129,7 +133,6 @@ function draw(began) {
   const t = shownTime();
   const moves = state.paused === null && state.hovered === null && world.now?.rate > 0;
   if (scene.wanted || moves) {
-    scene.drawnAt = t;
     if (state.paused !== null || state.hovered !== null) world.findLevels(t);
     scene.draw(t);
     timeline.draw(state.paused ?? world.time());
@@ -152,4 +155,4 @@ const source = new LiveSource(world, (text) => (state.link = text));
 requestAnimationFrame(draw);
 
 // For tests and the curious: what is drawn, in numbers.
-window.collision = { world, scene, timeline, source, shownTime };
+window.collision = { world, scene, timeline, source, shownTime, choose, pause };

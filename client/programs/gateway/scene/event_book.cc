@@ -66,10 +66,21 @@ void EventBook::DropOldest() {
     oldest = next;
     break;
   }
+  Drop(oldest);
+}
+
+void EventBook::Drop(std::map<std::uint64_t, Key>::iterator oldest) {
   dropped_.push_back(KeyText(oldest->first));
   changed_.erase(oldest->second);
   events_.erase(oldest->second);
   by_age_.erase(oldest);
+}
+
+void EventBook::BeginAnew(std::int64_t now_ns) {
+  for (auto next = by_age_.begin(); next != by_age_.end();) {
+    const auto one = next++;
+    if (events_.at(one->second).newest.now_ns() > now_ns) Drop(one);
+  }
 }
 
 std::vector<EventBook::Shown> EventBook::TakeChanged(const client::WorldView& view) {

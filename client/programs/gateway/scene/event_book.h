@@ -25,6 +25,9 @@ class EventBook {
 
   void Take(const v1::CollisionEvent& event);
 
+  /// Time has begun anew at `now_ns`: what was told at later times is forgotten.
+  void BeginAnew(std::int64_t now_ns);
+
   /// An event for viewers.
   struct Shown {
     std::string key;
@@ -53,6 +56,7 @@ class EventBook {
   };
 
   void Supersede(const Key& key);
+  void Drop(std::map<std::uint64_t, Key>::iterator oldest);
   void DropOldest();
   static std::string JsonOf(const Entry& entry, const client::WorldView& view);
 

@@ -13,6 +13,13 @@ namespace collision::gateway {
 
 using client::JsonObject;
 
+namespace {
+
+/// Statuses and clearances may overtake each other by less.
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+}  // namespace
+
 client::MessageMonitor::Callbacks Scene::Callbacks() {
   client::MessageMonitor::Callbacks all = view_.Callbacks();
   const auto also = [](auto* callback, auto more) {
@@ -23,6 +30,7 @@ client::MessageMonitor::Callbacks Scene::Callbacks() {
   };
   also(&all.status, [this](const v1::ServiceStatus& status) {
     has_status_ = true;
+    if (status.now_ns() < now_ns_ - kSecond) events_.BeginAnew(status.now_ns() + kSecond);
     now_ns_ = status.now_ns();
   });
   also(&all.earliest, [this](const v1::EarliestIntersection&) { has_earliest_ = true; });

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/client/fake_transport.h"
 #include "tests/client/programs/tools/collisionctl_fixture.h"
 
@@ -89,6 +91,28 @@ TEST_F(GatewaySceneTest, OldEventsThatAreOverMakeRoom) {
   for (const gateway::Board::Item& item : kept.items) events += item.name.starts_with("event/");
   EXPECT_EQ(events, gateway::EventBook::kEventsMax);
   EXPECT_FALSE(Has(News(), "event/3", ""));
+}
+
+TEST_F(GatewaySceneTest, WhatWasToldBeforeTimeBeganAnewIsForgotten) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  v1::ServiceStatus status;
+  status.set_now_ns(100 * kSecond);
+  all_.status(status);
+  v1::CollisionEvent old = Possible(1, 1, 1), fresh = Possible(2, 2, 1);
+  old.set_now_ns(99 * kSecond);
+  all_.event(old);
+  News();
+  fresh.set_now_ns(0);
+  all_.event(fresh);
+  status.set_now_ns(0);
+  all_.status(status);
+  News();
+  const auto kept = board_.After(0, 1 << 20);
+  const auto has = [&kept](const std::string& name) {
+    return std::ranges::any_of(kept.items, [&](const auto& item) { return item.name == name; });
+  };
+  EXPECT_FALSE(has("event/1"));
+  EXPECT_TRUE(has("event/2"));
 }
 
 TEST_F(GatewaySceneTest, AnAgentIsDescribedAndLeaves) {

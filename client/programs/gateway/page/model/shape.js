@@ -56,7 +56,9 @@ function solidGeometry(kind, numbers, hull) {
       made = upright(new THREE.CylinderGeometry(hx + rounding, hx + rounding, 2 * (hz + rounding),
                                                 28));
       break;
-    case CONE: made = upright(new THREE.ConeGeometry(hx + rounding, 2 * (hz + rounding), 28)); break;
+    case CONE:
+      made = upright(new THREE.ConeGeometry(hx + rounding, 2 * (hz + rounding), 28));
+      break;
     default: made = new THREE.SphereGeometry(Math.max(hx, rounding), 12, 8);
   }
   made.applyQuaternion(new THREE.Quaternion(qx, qy, qz, qw));

@@ -5,6 +5,9 @@ const STATES_MAX = 400000;  // Of all agents together.
 const STATES_LEAST = 16;    // Of one.
 const STATUSES_MAX = 1300;  // Ten minutes at the usual pace.
 const EVENTS_MAX = 20000;
+const DEPARTED_MAX = 2000;
+const PACE_MS = 2000;
+const CARRIED_MS = 500;     // So long at most time is carried on by itself.
 const SOON_S = 2;           // A contact that may begin within it is near.
 
 /** Levels of alert, as the legend has them; a higher one counts. */
@@ -23,7 +26,8 @@ export class World extends EventTarget {
 
   reset() {
     this.agents = new Map();  // by number
-    this.byId = new Map();    // number, by "SIMULATOR.slot"
+    this.byId = new Map();    // the newest agent, by "SIMULATOR.slot"
+    this.departed = new Set();
     this.waiting = new Map(); // states of agents that are not described yet, by number
     this.events = new Map();  // by key
     this.standing = new Set(); // of these, what may be, is, or was a contact
@@ -33,6 +37,7 @@ export class World extends EventTarget {
     this.earliest = null;
     this.connection = null;
     this.now = null;          // { t [s], heard [ms], rate }
+    this.times = [];          // of the last PACE_MS, likewise
     this.version = 0;
   }
 
@@ -55,12 +60,12 @@ export class World extends EventTarget {
   takeAgent(number, info) {
     const known = this.agents.get(number);
     if (!info) {
-      if (known) this.byId.delete(idOf(known.info));
-      this.agents.delete(number);
+      if (known) this.depart(known);
       return;
     }
     const isSame = known && known.info.generation === info.generation &&
         known.info.run === info.run;
+    if (known && !isSame) this.depart(known);
     const agent = isSame ? known : { number, history: new History(this.limit()), level: 0 };
     agent.info = info;
     agent.key = agentKey(info);
@@ -69,7 +74,27 @@ export class World extends EventTarget {
     if (waiting) agent.history.add(waiting);
     this.waiting.delete(number);
     this.agents.set(number, agent);
-    this.byId.set(idOf(info), number);
+    this.byId.set(idOf(info), agent);
+  }
+
+  /** It stays to be looked at in the past. */
+  depart(agent) {
+    this.agents.delete(agent.number);
+    agent.left = this.now?.t ?? -Infinity;
+    agent.level = 0;
+    this.departed.add(agent);
+    if (this.departed.size > DEPARTED_MAX) this.forget(this.departed.values().next().value);
+  }
+
+  forget(agent) {
+    this.departed.delete(agent);
+    if (this.byId.get(idOf(agent.info)) === agent) this.byId.delete(idOf(agent.info));
+  }
+
+  /** All that are there at `t`, those that have left since as well. */
+  *agentsAt(t) {
+    yield* this.agents.values();
+    for (const agent of this.departed) if (t < agent.left) yield agent;
   }
 
   limit() {
@@ -100,14 +125,33 @@ export class World extends EventTarget {
 
   takeNow(t) {
     if (t === null) return;
-    const heard = performance.now(), last = this.now;
-    if (last && t === last.t) return;
-    let rate = last?.rate ?? 0;
-    if (last && t > last.t && heard > last.heard) {
-      const seen = (t - last.t) / (heard - last.heard) * 1000;
-      rate = rate === 0 ? seen : rate + (seen - rate) * 0.2;
+    if (this.now && t < this.now.t - 1) this.beginAnew(t);
+    if (this.now && t <= this.now.t) return;
+    const heard = performance.now();
+    this.times.push({ t, heard });
+    while (this.times.length > 2 && heard - this.times[1].heard > PACE_MS) this.times.shift();
+    this.now = { t, heard, rate: this.pace() };
+  }
+
+  /** Seconds of the world in one of the wall: of the last two seconds, if they were seen. */
+  pace() {
+    if (this.status?.clock === "real-time") return 1;
+    const [first, last] = [this.times[0], this.times.at(-1)];
+    const seen = last.heard - first.heard;
+    return seen < PACE_MS / 4 ? 0 : (1000 * (last.t - first.t)) / seen;
+  }
+
+  /** Time has begun anew, as it does in lock-step: what was told of later times is of before. */
+  beginAnew(t) {
+    this.now = null;
+    this.times = [];
+    for (const agent of [...this.departed]) this.forget(agent);
+    for (const one of [...this.events.values()]) {
+      if (one.event.now_s <= t + 1) continue;
+      this.events.delete(one.key);
+      this.standing.delete(one);
     }
-    this.now = { t, heard, rate };
+    this.dispatchEvent(new Event("anew"));
   }
 
   /** All of a message has been taken. */
@@ -120,12 +164,12 @@ export class World extends EventTarget {
   /** The world's time, carried on at its pace for as long as it may take to be told anew. */
   time() {
     if (!this.now) return null;
-    const elapsed = Math.min(1000, performance.now() - this.now.heard);
+    const elapsed = Math.min(CARRIED_MS, performance.now() - this.now.heard);
     return this.now.t + (this.now.rate * elapsed) / 1000;
   }
 
   agentOf(reference) {
-    return this.agents.get(this.byId.get(idOf(reference)));
+    return this.byId.get(idOf(reference));
   }
 
   agentByKey(key) {
@@ -140,7 +184,7 @@ export class World extends EventTarget {
 
   /** How near to a contact each agent is at `t`, by the events that are open then. */
   findLevels(t = this.now?.t) {
-    for (const agent of this.agents.values()) agent.level = 0;
+    for (const agent of this.agentsAt(-Infinity)) agent.level = 0;
     if (t == null) return;
     for (const { event } of this.standing) {
       const level = levelAt(event, t);
@@ -157,7 +201,7 @@ export class World extends EventTarget {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     const p = [0, 0, 0];
     let radius = 1;
-    for (const agent of this.agents.values()) {
+    for (const agent of this.agentsAt(t)) {
       const state = agent.history.at(t);
       if (!state || agent.declaration.half_space) continue;
       positionAt(state, t, p);

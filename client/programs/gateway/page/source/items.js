@@ -24,7 +24,8 @@ export function readItems(buffer, onJson, onState) {
 
 /**
  * One chunk. A state: t [s], position p [m], velocity v, acceleration a, angular velocity w, all in
- * the world frame; orientation q (w x y z); errors of position and velocity; until when it is clear.
+ * the world frame; orientation q (w x y z); errors of position and velocity; until when it is
+ * clear.
  */
 function readStates(view, at, onState) {
   const first = view.getUint32(at, true), count = view.getUint32(at + 4, true);

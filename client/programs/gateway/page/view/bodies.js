@@ -30,7 +30,7 @@ export class Bodies {
   update(t, origin, eye, chosen) {
     const p = [0, 0, 0];
     const candidates = [];
-    for (const agent of this.world.agents.values()) {
+    for (const agent of this.world.agentsAt(t)) {
       const hash = agent.declaration.shape_hash;
       const state = hash && agent.history.at(t);
       if (!state || !this.geometryOf(hash)) continue;

@@ -2,13 +2,18 @@
 
 export const seconds = (t, digits = 2) => (t == null ? "–" : `${t.toFixed(digits)} s`);
 
-/** A bracket of instants: "2.10 … 2.11 s"; what is open has no end. */
+/**
+ * A bracket of instants: "2.10 … 2.11 s", a narrow one as "2.1043 s ± 3.00 µs"; what is open has no
+ * end.
+ */
 export function bracket(range) {
   if (!range || (range.earliest_s == null && range.latest_s == null)) return "–";
-  const wide = (range.latest_s ?? Infinity) - (range.earliest_s ?? -Infinity);
-  const digits = wide < 1e-4 ? 6 : wide < 0.01 ? 4 : 2;
-  const one = (t) => (t == null ? "?" : t.toFixed(digits));
-  return `${one(range.earliest_s)} … ${one(range.latest_s)} s`;
+  const { earliest_s: from, latest_s: to } = range;
+  if (from == null || to == null || to - from >= 0.01) {
+    const one = (t) => (t == null ? "?" : t.toFixed(2));
+    return `${one(from)} … ${one(to)} s`;
+  }
+  return `${((from + to) / 2).toFixed(4)} s ± ${quantity((to - from) / 2, "s")}`;
 }
 
 export function width(range) {
@@ -19,7 +24,8 @@ export function width(range) {
 /** With three digits and a unit that fits: "1.20 ms". */
 export function quantity(value, unit) {
   if (value == null || !Number.isFinite(value)) return "–";
-  const steps = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
+  const steps = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"],
+    [1e-12, "p"]];
   const size = Math.abs(value);
   const [factor, prefix] = steps.find(([least]) => size >= least) ?? [1, ""];
   return `${size === 0 ? "0" : (value / factor).toPrecision(3)} ${prefix}${unit}`;
@@ -47,7 +53,7 @@ export function element(tag, attributes = {}, ...children) {
   return made;
 }
 
-const MARKS = { calm: "●", possible: "○", soon: "◆", contact: "✖", over: "·" };
+const MARKS = { calm: "●", possible: "○", soon: "◆", contact: "✖", over: "▪" };
 
 /** The level by shape and colour, and by a word for those who hear the page. */
 export const mark = (level) =>

@@ -32,7 +32,7 @@ void main() {
   int level = int(mod(vLevel, 8.0) + 0.5);
   float edge = level == 2 ? abs(at.x) + abs(at.y) : r;
   if (edge > 1.0) discard;
-  float light = 0.55 + 0.45 * sqrt(max(0.0, 1.0 - r * r)) - 0.15 * at.y;
+  float light = 0.75 + 0.35 * sqrt(max(0.0, 1.0 - r * r)) - 0.12 * at.y;
   vec3 color = level == 0 ? colors[0] : level == 1 ? colors[1] : level == 2 ? colors[2] : colors[3];
   color *= light;
   float line = 3.0 / vPixels;
@@ -40,6 +40,7 @@ void main() {
   if (level == 3 && vPixels > 10.0 && abs(abs(at.x) - abs(at.y)) < line) color = ink;
   if (chosen && edge > 1.0 - 2.0 * line) color = colors[4];
   gl_FragColor = vec4(color, 1.0);
+  #include <colorspace_fragment>
 }`;
 
 const CHOSEN = 8;

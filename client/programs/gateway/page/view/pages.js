@@ -44,7 +44,7 @@ export class Pages {
   }
 
   showAgent(agent) {
-    this.detail = { agent: agent.number };
+    this.detail = { agent };
     this.draw(this.world.time());
   }
 
@@ -65,13 +65,14 @@ export class Pages {
     this.place.replaceChildren(...this.content(t));
     this.place.scrollTop = scrolled;
     if (focused) {
-      this.place.querySelector(`[data-key="${CSS.escape(focused)}"]`)?.focus({ preventScroll: true });
+      const row = this.place.querySelector(`[data-key="${CSS.escape(focused)}"]`);
+      row?.focus({ preventScroll: true });
     }
   }
 
   content(t) {
     if (this.detail?.key) return this.eventPage(this.world.events.get(this.detail.key), t);
-    if (this.detail) return this.agentPage(this.world.agents.get(this.detail.agent), t);
+    if (this.detail) return this.agentPage(this.detail.agent, t);
     switch (this.id) {
       case "pairs": return this.pairs(t);
       case "agents": return this.agents(t);
@@ -96,9 +97,9 @@ export class Pages {
       const level = levelAt(event, t);
       const begin = beginOf(event, t);
       // What stands; what is expected, then what may be, the nearest first; what was, the newest
-      // first.
+      // first; what is expected to pass.
       if (level === 3) return begin - 1e12;
-      if (level === 0) return 1e13 - begin;
+      if (level === 0) return 1e11 - begin;
       const expected = event.expected?.outcome === "touch" ? event.expected.begin.earliest_s : null;
       return expected !== null ? expected - t : begin - t +
         (event.expected?.outcome === "pass" ? 1e12 : 1e9);
@@ -123,13 +124,14 @@ export class Pages {
 
   agents(t) {
     const shown = [...this.world.agents.values()].filter((agent) =>
-      this.matches(() => fullName(agent.info), () => tagsOf(agent.info), () => agent.info.presence));
+      this.matches(() => fullName(agent.info), () => tagsOf(agent.info),
+                   () => agent.info.presence));
     shown.sort((a, b) => b.level - a.level || (a.key < b.key ? -1 : 1));
     if (shown.length === 0) return [element("p", { class: "empty" }, "No agent is here.")];
     return [table(["", "Agent", "Clear for", "State", "Breaches"],
       shown.slice(0, ROWS_MAX).map((agent) => {
         const state = agent.history.at(t);
-        return this.row(agent.key, this.detail?.agent === agent.number,
+        return this.row(agent.key, this.detail?.agent === agent,
           () => this.onChoose({ agent }),
           element("td", {}, mark(LEVELS[agent.level])),
           element("td", {}, fullName(agent.info)),
@@ -151,7 +153,8 @@ export class Pages {
           `${quantity(one.clock_offset.earliest_s, "s")} … ` +
           quantity(one.clock_offset.latest_s, "s")),
         element("td", { class: "number" }, one.agents),
-        element("td", {}, one.refused_now > 0 ? `${one.refused_now}: ${one.refused_why}` : "none"))))];
+        element("td", {}, one.refused_now > 0
+          ? `${one.refused_now}: ${one.refused_why}` : "none"))))];
   }
 
   eventPage(one, t) {
@@ -189,7 +192,6 @@ export class Pages {
   }
 
   agentPage(agent, t) {
-    if (!agent) return [element("p", { class: "empty" }, "That agent has left.")];
     const state = agent.history.at(t), { declaration } = agent;
     const tags = Object.entries(agent.info.tags ?? {}).map(([k, v]) => `${k}: ${v}`).join(", ");
     const mine = [...this.world.standing].filter(({ event }) =>
@@ -198,7 +200,7 @@ export class Pages {
       this.back(),
       element("h2", {}, mark(LEVELS[agent.level]), fullName(agent.info)),
       list([
-        ["Presence", agent.info.presence],
+        ["Presence", agent.left === undefined ? agent.info.presence : "it has left"],
         ["Clear for", clearText(state, t)],
         ["Speed", state && quantity(Math.hypot(...state.v), "m/s")],
         ["State of", state && `${ageText(t - state.t)} ago`],

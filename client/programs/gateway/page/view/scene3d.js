@@ -117,11 +117,13 @@ export class Scene3D {
 
   draw(t) {
     this.wanted = false;
+    this.drawnAt = t;
     if (t == null) return this.renderer.render(this.scene, this.camera);
     if (this.follows && this.chosen) this.moveWith(this.chosen, t);
     const p = [0, 0, 0];
-    this.markers.update(this.world.agents.size, (put) => {
-      for (const agent of this.world.agents.values()) {
+    const { agents, departed } = this.world;
+    this.markers.update(agents.size + departed.size, (put) => {
+      for (const agent of this.world.agentsAt(t)) {
         const state = agent.history.at(t);
         if (!state || agent.declaration.half_space) continue;
         positionAt(state, t, p);
@@ -144,7 +146,8 @@ export class Scene3D {
 
   /** The agents that matter most, the chosen one and the alerted first. */
   mattering(most) {
-    const some = [...this.world.agents.values()].filter((a) => a.level >= 1 || a === this.chosen);
+    const some = [...this.world.agentsAt(this.drawnAt)].filter((a) =>
+      a.level >= 1 || a === this.chosen);
     some.sort((a, b) => (b === this.chosen) - (a === this.chosen) || b.level - a.level);
     return some.slice(0, most);
   }
@@ -235,7 +238,7 @@ export class Scene3D {
     const y = 1 - ((click.clientY - box.top) / box.height) * 2;
     const at = new THREE.Vector3();
     let best = null, least = 0.05;
-    for (const agent of this.world.agents.values()) {
+    for (const agent of this.world.agentsAt(this.drawnAt)) {
       const state = agent.history.at(this.drawnAt ?? this.world.time());
       if (!state) continue;
       at.set(...this.local(positionAt(state, this.drawnAt ?? state.t))).project(this.camera);
@@ -262,12 +265,24 @@ function ringsOf(radius) {
   return new THREE.BufferGeometry().setFromPoints(points);
 }
 
+/** Lines of a grid in pieces: software rendering leaves out a line that begins behind the eye. */
+function gridLines(step, lines) {
+  const points = [];
+  for (let i = -lines; i <= lines; ++i) {
+    for (let k = -lines; k < lines; ++k) {
+      points.push(i, k, 0, i, k + 1, 0, k, i, 0, k + 1, i, 0);
+    }
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3).applyMatrix4(
+    new THREE.Matrix4().makeScale(step, step, step)));
+  return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colorOf("line") }));
+}
+
 function gridOf(step) {
   const lines = 20;
   const group = new THREE.Group();
-  const grid = new THREE.GridHelper(2 * lines * step, 2 * lines, colorOf("faint"), colorOf("line"));
-  grid.rotation.x = Math.PI / 2;
-  group.add(grid);
+  group.add(gridLines(step, lines));
   for (const [name, way] of [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]]) {
     const end = new THREE.Vector3(...way).multiplyScalar(3 * step);
     group.add(new THREE.Line(

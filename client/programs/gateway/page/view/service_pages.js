@@ -71,8 +71,9 @@ export function silencePage(world) {
       add("No agent has been described.", "start a simulator of this world and domain");
     }
     for (const one of world.status?.simulators ?? []) {
-      if (!one.alive) add(`${one.name} is silent.`, `see to it, or: collisionctl evict ${one.name}`);
-      else if (one.refused_now > 0) {
+      if (!one.alive) {
+        add(`${one.name} is silent.`, `see to it, or: collisionctl evict ${one.name}`);
+      } else if (one.refused_now > 0) {
         add(`${one.name}: ${one.refused_now} things are refused: ${one.refused_why}`,
             "collisionctl status --all");
       }

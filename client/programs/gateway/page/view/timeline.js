@@ -1,6 +1,6 @@
 // Contacts over time: from "not before" to "by then", as far as is known.
 import { levelAt, LEVELS } from "../model/world.js";
-import { bracket, colorOf, element, fullName, width } from "./format.js";
+import { bracket, colorOf, element, fullName, width as widthOf } from "./format.js";
 
 const ROW = 16, TOP = 18, ROWS_MAX = 60;
 const SPAN_MIN = 0.02, SPAN_MAX = 1200;
@@ -113,10 +113,9 @@ export class Timeline {
     const { clientWidth: w, clientHeight: h } = this.canvas;
     if (w === 0 || h === 0 || t == null) return;
     const ratio = devicePixelRatio;
-    if (this.canvas.width !== Math.round(w * ratio) || this.canvas.height !== Math.round(h * ratio)) {
-      this.canvas.width = Math.round(w * ratio);
-      this.canvas.height = Math.round(h * ratio);
-    }
+    const [width, height] = [Math.round(w * ratio), Math.round(h * ratio)];
+    if (this.canvas.width !== width) this.canvas.width = width;
+    if (this.canvas.height !== height) this.canvas.height = height;
     const pen = this.canvas.getContext("2d");
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, w, h);
@@ -176,8 +175,8 @@ export class Timeline {
 }
 
 /**
- * What is possible has not begun: a forecast is told anew only where what is left of it changes, and
- * then its begin may have passed.
+ * What is possible has not begun: a forecast is told anew only where what is left of it changes,
+ * and then its begin may have passed.
  */
 export const beginOf = (event, t) => {
   const begin = event.begin.earliest_s ?? event.now_s;
@@ -198,7 +197,7 @@ function describe(event, t) {
     element("div", {}, `${event.status}: begins ${bracket(event.begin)}`),
   ];
   if (event.end?.earliest_s != null) lines.push(element("div", {}, `ends ${bracket(event.end)}`));
-  const wide = width(event.begin);
+  const wide = widthOf(event.begin);
   if (wide != null) lines.push(element("div", {}, `known to within ${wide.toPrecision(3)} s`));
   const near = event.proximity;
   if (near?.separation_m) {
