@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import http from "node:http";
-import { after, before, test } from "node:test";
+import { after, afterEach, before, test } from "node:test";
 import { launch, openPage } from "./browser.mjs";
 import { source, TestWorld, until } from "./world.mjs";
 
@@ -14,6 +14,8 @@ const TOLD_WITHIN_MS = 3000;
 
 let browser;
 before(async () => (browser = await launch()));
+// Pages that nobody looks at draw, too.
+afterEach(() => Promise.all(browser.contexts().map((context) => context.close())));
 after(() => browser.close());
 
 /** A world with two that meet head-on at 4.5 s, each a simulator of its own. */
