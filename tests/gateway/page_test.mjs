@@ -154,6 +154,8 @@ test("a service that dies is told of, and found again", async () => {
     await until("it is told", async () => (await verdict()).includes("no service"));
     assert.ok(Date.now() - killed < TOLD_WITHIN_MS + 1000, `${Date.now() - killed} ms`);
     assert.equal((await fetch(`${gateway.address}readyz`)).status, 503);
+    await page.waitForTimeout(4000);
+    assert.ok((await verdict()).includes("no service"), "and it stays the cause that is told");
     await page.getByRole("tab", { name: "Why is it silent?" }).click();
     await page.getByText("The gateway hears no service of its world.").waitFor();
 

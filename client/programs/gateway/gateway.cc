@@ -1,6 +1,8 @@
 #include "client/programs/gateway/gateway.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +20,7 @@
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/agents_watcher.h"
 #include "client/programs/tools/collisionctl/status/verdict.h"
+#include "idl/limits.h"
 
 namespace collision::gateway {
 namespace {
@@ -27,6 +30,8 @@ using Time = std::chrono::steady_clock::time_point;
 constexpr std::chrono::milliseconds kWaitMax{100};  ///< Longest time to notice the end.
 constexpr std::chrono::seconds kStatusMax{11};      ///< A status that is older is none.
 constexpr std::chrono::seconds kMetricsPeriod{1};   ///< A status comes twice as often.
+constexpr std::chrono::seconds kWatchLonger{10};    ///< After the last viewer has left.
+constexpr std::chrono::seconds kWatchAgain{10};     ///< After it could not be begun.
 
 std::chrono::nanoseconds Seconds(double seconds) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -49,6 +54,11 @@ std::string ReadToken(const std::string& file) {
 
 bool IsLoopback(const std::string& address) {
   return address == "::1" || address.starts_with("127.");
+}
+
+/// As browsers write it.
+std::string HostOf(const std::string& address) {
+  return address.find(':') == std::string::npos ? address : "[" + address + "]";
 }
 
 /// Where the page is: beside the program, as it is installed or was built.
@@ -113,8 +123,8 @@ class Gateway {
       if (now >= due) {
         due = now + period;
         ShowWhatIsNew(now);
-        Watch(now);
       }
+      Watch(now);
       monitor_.Poll(std::min<std::chrono::nanoseconds>(kWaitMax, due - now));
     }
   }
@@ -134,6 +144,11 @@ class Gateway {
                              ": whoever reaches it could look: give it a --token-file, or stay on "
                              "127.0.0.1 and let a reverse proxy ask who it is");
     }
+    for (std::string& host : web.hosts) {
+      std::ranges::transform(host, host.begin(), [](unsigned char c) { return std::tolower(c); });
+    }
+    // By an address no other page can call it.
+    if (web.address != "0.0.0.0" && web.address != "::") web.hosts.push_back(HostOf(web.address));
     return web;
   }
 
@@ -164,6 +179,8 @@ class Gateway {
     if (is_new) server_.Wake();
     if (now < metrics_due_) return;
     metrics_due_ = now + kMetricsPeriod;
+    scene_.Beat();
+    server_.Wake();
     site_.SetMetrics(
         MakePayload(WorldMetrics(scene_.view(), {.world = options_.monitor.world,
                                                  .version = client::LibraryVersion(),
@@ -172,16 +189,29 @@ class Gateway {
                                                  .contacts_missed = monitor_.contacts_missed()})));
   }
 
-  /// While somebody looks, states are fresh.
+  /// While somebody looks, states are fresh. A page that is loaded anew was away for a moment.
   void Watch(Time now) {
-    if (!options_.watch || viewers_ == 0) return watcher_.reset();
-    if (!watcher_) {
-      const client::Place place{options_.monitor.world, options_.monitor.domain,
-                                options_.monitor.credentials};
+    if (!options_.watch) return;
+    if (viewers_ > 0) looked_ = now;
+    if (!looked_ || now - *looked_ > kWatchLonger) return watcher_.reset();
+    if (!watcher_ && now >= watch_due_) StartWatch(now);
+    if (watcher_) watcher_->Repeat(now);
+  }
+
+  /// Without it the page shows what simulators send anyway.
+  void StartWatch(Time now) {
+    const client::Place place{options_.monitor.world, options_.monitor.domain,
+                              options_.monitor.credentials};
+    const std::int64_t period_ns = std::clamp(Seconds(1 / options_.rate_hz).count(),
+                                              wire::kWatchPeriodMin, wire::kWatchPeriodMax);
+    try {
       watcher_ = std::make_unique<client::AgentsWatcher>(client::ConnectWatcher(place),
-                                                         Seconds(1 / options_.rate_hz));
+                                                         std::chrono::nanoseconds(period_ns));
+    } catch (const std::runtime_error& error) {
+      std::cerr << "collision-gateway: simulators are not asked for fresh states: " << error.what()
+                << '\n';
+      watch_due_ = now + kWatchAgain;
     }
-    watcher_->Repeat(now);
   }
 
   const GatewayOptions& options_;
@@ -194,8 +224,9 @@ class Gateway {
   client::MessageMonitor monitor_;
   std::unique_ptr<client::AgentsWatcher> watcher_;
   std::uint64_t status_sequence_ = 0;
-  Time status_heard_{}, metrics_due_{};
-  WebServer server_;  // last: what it asks is there
+  Time status_heard_{}, metrics_due_{}, watch_due_{};
+  std::optional<Time> looked_;  ///< When a viewer was there last.
+  WebServer server_;            // last: what it asks is there
 };
 
 }  // namespace
@@ -204,10 +235,9 @@ int RunGateway(const GatewayOptions& options, const std::function<bool()>& stopp
   std::cerr << "collision-gateway: "
             << client::PlaceText(options.monitor.world, options.monitor.domain) << '\n';
   Gateway gateway(options);
-  const std::string host = options.web.address.find(':') == std::string::npos
-                               ? options.web.address
-                               : "[" + options.web.address + "]";
-  std::cout << "http://" << host << ":" << gateway.port() << "/" << std::endl;
+  const bool is_any = options.web.address == "0.0.0.0" || options.web.address == "::";
+  std::cout << "http://" << (is_any ? "localhost" : HostOf(options.web.address)) << ":"
+            << gateway.port() << "/" << std::endl;
   gateway.Run(stopped);
   return client::kExitOk;
 }

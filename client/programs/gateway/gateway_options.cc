@@ -24,9 +24,9 @@ void AddGatewayOptions(CLI::App* app, GatewayOptions* options) {
                   "Most connections at a time, 1 to 65536")
       ->capture_default_str()
       ->check(client::WholeBetween(1, kConnectionsMax));
-  app->add_option("--rate", options->rate_hz, "Updates of a viewer per second, at most, 0 to 60")
+  app->add_option("--rate", options->rate_hz, "Updates of a viewer per second, at most, 1 to 50")
       ->capture_default_str()
-      ->check(client::Finite(60, false));
+      ->check(client::Between(1, 50));
   app->add_flag("!--no-watch", options->watch,
                 "Do not ask simulators for fresh states while somebody looks");
   app->add_option("--page", options->page, "Folder of the page, instead of the installed one");

@@ -1,8 +1,9 @@
-# cmake -D SOURCE=... -D WORK=... -D TARGET=... -D NPM=... -D GZIP=... -P install_page.cmake
+# cmake -D SOURCE=... -D WORK=... -D TARGET=... -D NPM=... -D GZIP=...
+#   -D STAMP=... -P install_page.cmake
 # The page as browsers get it, in TARGET: ours from SOURCE, and what it takes from npm, which is
-# fetched into WORK. Without npm, or where it cannot fetch, there is no page, and a line says so.
-file(REMOVE_RECURSE ${TARGET})
-file(MAKE_DIRECTORY ${WORK})
+# fetched into WORK. Where it cannot fetch there is no page, and a line says so; STAMP is made once
+# there is one.
+file(MAKE_DIRECTORY ${TARGET} ${WORK})
 foreach(name package.json package-lock.json)
   file(COPY ${SOURCE}/${name} DESTINATION ${WORK})
 endforeach()
@@ -16,10 +17,12 @@ if(NOT there STREQUAL wanted)
     WORKING_DIRECTORY ${WORK} RESULT_VARIABLE failed OUTPUT_QUIET ERROR_VARIABLE said)
   if(NOT failed EQUAL 0)
     message(WARNING "collision-gateway will have no page: npm ci has failed: ${said}")
+    file(REMOVE ${STAMP})
     return()
   endif()
   file(WRITE ${WORK}/fetched ${wanted})
 endif()
+file(REMOVE_RECURSE ${TARGET})
 file(COPY ${SOURCE}/ DESTINATION ${TARGET} PATTERN package*.json EXCLUDE)
 set(modules ${WORK}/node_modules)
 set(three build/three.module.js build/three.core.js LICENSE
@@ -38,3 +41,4 @@ if(GZIP)
   file(GLOB_RECURSE texts ${TARGET}/*.js ${TARGET}/*.css)
   execute_process(COMMAND ${GZIP} -9nkf ${texts} COMMAND_ERROR_IS_FATAL ANY)
 endif()
+file(TOUCH ${STAMP})

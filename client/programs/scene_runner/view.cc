@@ -62,6 +62,9 @@ RunResult ViewScene(RunnerOptions options, std::uint16_t port) {
   while (!StopRequested() && result == kSatisfied && gateway.Running()) {
     result = Runner(options).Run();
   }
+  if (!StopRequested() && !gateway.Running()) {
+    throw std::runtime_error("the gateway has ended:\n" + gateway.LastLines(kLinesOfGateway));
+  }
   std::error_code ignored;
   fs::remove(log, ignored);
   return result == kInterrupted ? kSatisfied : result;

@@ -19,11 +19,23 @@ constexpr std::string_view kRejected = "rejected_", kEvents = "events_";
 
 /// Counters of the status that go up and down; all others only grow.
 bool IsGauge(const std::string& name) {
-  static const std::set<std::string> gauges = {
-      "simulators_unlisted", "unproven_inputs",  "shapes",     "shapes_gathering",
-      "shape_bytes",         "tree_nodes",       "tree_bytes", "trees_coarse",
-      "trees_building",      "tree_cache_bytes", "queued",     "queries_per_second",
-      "pairs_waiting"};
+  static const std::set<std::string> gauges = {"simulators_unlisted",
+                                               "unproven_inputs",
+                                               "shapes",
+                                               "shapes_gathering",
+                                               "shape_bytes",
+                                               "tree_nodes",
+                                               "tree_bytes",
+                                               "trees_coarse",
+                                               "trees_building",
+                                               "tree_cache_bytes",
+                                               "queued",
+                                               "queries_per_second",
+                                               "pairs_waiting",
+                                               "levels_pairs_tracked",
+                                               "levels_pairs_waiting",
+                                               "hypothetical_agents",
+                                               "screening_pairs_tracked"};
   return gauges.count(name) > 0;
 }
 
@@ -149,7 +161,7 @@ void AddHistograms(const v1::ServiceStatus& status, MetricsText* text) {
 std::string WorldMetrics(const client::WorldView& view, const GatewayMeasures& measures) {
   MetricsText text;
   AddGateway(measures, &text);
-  if (!view.status()) return text.text();
+  if (!view.status() || !measures.service_up) return text.text();
   AddService(*view.status(), view, &text);
   AddSimulators(*view.status(), &text);
   AddCounters(*view.status(), &text);

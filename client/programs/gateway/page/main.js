@@ -117,7 +117,9 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
 
 world.addEventListener("anew", () => {
   pause(null);
-  timeline.chosen = null;
+  timeline.chosen = scene.chosen = null;
+  pages.forget();
+  state.framed = linked = false;
 });
 world.addEventListener("change", () => {
   scene.wanted = true;

@@ -26,6 +26,8 @@ std::string KeyText(std::uint64_t number) { return "event/" + std::to_string(num
 }  // namespace
 
 void EventBook::Take(const v1::CollisionEvent& event) {
+  const v1::ServiceStamp& stamp = event.stamp();
+  if (stamp.service_id() == service_ && stamp.epoch() < epoch_) return;  // of a former epoch
   if (const auto ended = slots_.Take(event)) Supersede(*ended);
   const Key key = client::KeyOf(event);
   const auto [place, is_new] = events_.try_emplace(key);
@@ -34,6 +36,9 @@ void EventBook::Take(const v1::CollisionEvent& event) {
     entry.number = ++last_;
     by_age_[entry.number] = key;
   }
+  const bool is_of_another = entry.newest.stamp().service_id() == stamp.service_id() &&
+                             entry.newest.stamp().epoch() < stamp.epoch();
+  if (is_of_another) entry.revisions.clear();
   entry.newest = event;
   entry.is_superseded = false;
   entry.revisions.push_back({.now_ns = event.now_ns(),
@@ -76,10 +81,14 @@ void EventBook::Drop(std::map<std::uint64_t, Key>::iterator oldest) {
   by_age_.erase(oldest);
 }
 
-void EventBook::BeginAnew(std::int64_t now_ns) {
+void EventBook::ForgetEpochsBefore(const v1::ServiceStamp& stamp, std::uint64_t service) {
+  if (service == service_ && stamp.epoch() == epoch_) return;
+  service_ = service;
+  epoch_ = stamp.epoch();
   for (auto next = by_age_.begin(); next != by_age_.end();) {
     const auto one = next++;
-    if (events_.at(one->second).newest.now_ns() > now_ns) Drop(one);
+    const v1::ServiceStamp& told = events_.at(one->second).newest.stamp();
+    if (told.service_id() == service && told.epoch() < stamp.epoch()) Drop(one);
   }
 }
 

@@ -25,8 +25,8 @@ class EventBook {
 
   void Take(const v1::CollisionEvent& event);
 
-  /// Time has begun anew at `now_ns`: what was told at later times is forgotten.
-  void BeginAnew(std::int64_t now_ns);
+  /// This stamp of this service counts: what it told in former epochs is forgotten.
+  void ForgetEpochsBefore(const v1::ServiceStamp& stamp, std::uint64_t service);
 
   /// An event for viewers.
   struct Shown {
@@ -66,6 +66,8 @@ class EventBook {
   client::ForecastSlots slots_;
   std::vector<std::string> dropped_;
   std::uint64_t last_ = 0;
+  std::uint64_t service_ = 0;  ///< In force, and its epoch.
+  std::uint32_t epoch_ = 0;
 };
 
 }  // namespace collision::gateway

@@ -7,7 +7,9 @@
 #include "client/programs/tools/collisionctl/json/json_writer.h"
 #include "client/programs/tools/collisionctl/json/status_json.h"
 #include "client/programs/tools/collisionctl/json/world_json.h"
+#include "client/programs/tools/collisionctl/status/status_fields.h"
 #include "collision/shape.h"
+#include "idl/identity.h"
 
 namespace collision::gateway {
 
@@ -15,8 +17,18 @@ using client::JsonObject;
 
 namespace {
 
-/// Statuses and clearances may overtake each other by less.
-constexpr std::int64_t kSecond = 1'000'000'000;
+/// All of a status on which it depends how an agent is present.
+std::string PresenceIn(const v1::ServiceStatus& status) {
+  std::string presence;
+  for (const v1::SimulatorStatus& one : status.simulators()) {
+    presence += IdText(one.simulator_id()) + " " + std::to_string(one.run()) +
+                (one.alive() ? " alive\n" : " silent\n");
+  }
+  for (const char* key : {"waiting_for", "evicted", "removed_silent"}) {
+    presence += client::ExtensionOf(status, key) + "\n";
+  }
+  return presence;
+}
 
 }  // namespace
 
@@ -30,17 +42,26 @@ client::MessageMonitor::Callbacks Scene::Callbacks() {
   };
   also(&all.status, [this](const v1::ServiceStatus& status) {
     has_status_ = true;
-    if (status.now_ns() < now_ns_ - kSecond) events_.BeginAnew(status.now_ns() + kSecond);
+    events_.ForgetEpochsBefore(status.stamp(), status.service_id());
     now_ns_ = status.now_ns();
+    if (std::string presence = PresenceIn(status); presence != presence_) {
+      presence_ = std::move(presence);
+      described_.insert(known_.begin(), known_.end());
+    }
   });
   also(&all.earliest, [this](const v1::EarliestIntersection&) { has_earliest_ = true; });
   also(&all.event, [this](const v1::CollisionEvent& event) { events_.Take(event); });
   also(&all.description, [this](const v1::AgentDescription& description) {
+    known_.insert({description.simulator_id(), description.slot()});
     described_.insert({description.simulator_id(), description.slot()});
   });
   also(&all.removal, [this](const v1::AgentRemoval& removal) {
-    states_.Clear(removal.simulator_id(), removal.slot());
-    described_.insert({removal.simulator_id(), removal.slot()});
+    const Slot slot{removal.simulator_id(), removal.slot()};
+    described_.insert(slot);
+    // That of an earlier program removes nothing.
+    if (view_.Newest(slot.first, slot.second)) return;
+    states_.Clear(slot.first, slot.second);
+    known_.erase(slot);
   });
   also(&all.breach, [this](const v1::AgentBreach& breach) {
     described_.insert({breach.simulator_id(), breach.slot()});
@@ -70,8 +91,11 @@ bool Scene::Publish(const Connection& connection) {
                           .Json());
   }
   if (std::exchange(has_status_, false) && view_.status()) {
-    Put("status",
-        JsonObject().Text("item", "status").Add("status", client::StatusJson(view_)).Json());
+    Put("status", JsonObject()
+                      .Text("item", "status")
+                      .Number("skew_max_s", 1e-9 * static_cast<double>(view_.skew_max_ns()))
+                      .Add("status", client::StatusJson(view_))
+                      .Json());
   }
   if (std::exchange(has_earliest_, false)) {
     Put("earliest",
@@ -85,7 +109,12 @@ bool Scene::Publish(const Connection& connection) {
   }
   static_cast<void>(view_.TakeEvents());
   for (const EventBook::Shown& page : events_.TakeChanged(view_)) {
-    page.json.empty() ? board_.Remove(page.key) : Put(page.key, page.json);
+    if (!page.json.empty()) {
+      Put(page.key, page.json);
+    } else {
+      board_.Remove(page.key);
+      PutGone(page.key);
+    }
   }
   if (now_ns_ != shown_ns_) PutNow();
   return changed_;
@@ -111,6 +140,14 @@ void Scene::PutAgent(const Slot& slot) {
   }
   Put("agent/" + std::to_string(*number), item.Json());
 }
+
+/// Those who have it hear that it is gone; so many are told of it as may be kept.
+void Scene::PutGone(const std::string& key) {
+  Put("gone/" + std::to_string(gone_++ % EventBook::kEventsMax),
+      JsonObject().Text("item", "event").Text("key", key).Null("event").Json());
+}
+
+void Scene::Beat() { Put("beat", JsonObject().Text("item", "beat").Json()); }
 
 void Scene::PutNow() {
   shown_ns_ = now_ns_;

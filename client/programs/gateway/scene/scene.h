@@ -39,6 +39,9 @@ class Scene {
   /// Puts what has changed since the last call on the board. Returns whether anything had.
   bool Publish(const Connection& connection);
 
+  /// Something new for all viewers, so that they know that the gateway is there.
+  void Beat();
+
   const client::WorldView& view() const { return view_; }
 
  private:
@@ -46,6 +49,7 @@ class Scene {
 
   void Put(const std::string& name, std::string json);
   void PutAgent(const Slot& slot);
+  void PutGone(const std::string& key);
   void PutNow();
 
   Board& board_;
@@ -53,7 +57,10 @@ class Scene {
   client::WorldView view_;
   EventBook events_;
   StateTable states_;
-  std::set<Slot> described_;  ///< Agents of which something but their state has changed.
+  std::set<Slot> known_;      ///< Agents that are described.
+  std::set<Slot> described_;  ///< Of them, those of which something but their state has changed.
+  std::string presence_;      ///< What the newest status says of simulators.
+  std::uint64_t gone_ = 0;    ///< Events that are not kept any more.
   std::optional<Connection> connection_;
   bool has_status_ = false, has_earliest_ = false;  ///< Newer ones than on the board.
   std::int64_t now_ns_ = 0;                         ///< The newest that the service has told.

@@ -19,6 +19,9 @@ class ShapeStore {
   /// Of all shapes together; the bytes of one that does not fit are not kept.
   static constexpr std::size_t kBytesMax = 512 << 20;
 
+  /// Shapes that have come in part; of further ones nothing is kept.
+  static constexpr std::size_t kGatheringMax = 4096;
+
   /// Returns whether that made a shape whole.
   bool Take(const v1::ShapePart& part);
 

@@ -15,16 +15,17 @@
 namespace collision::gateway {
 
 /// Agents by number: the place of a simulator's slot in this table, for as long as the program
-/// runs. One thread.
+/// runs. States that the service would refuse are not shown. One thread.
 class StateTable {
  public:
   /// A chunk is sent as a whole when one of its agents has changed.
   static constexpr std::uint32_t kStatesOfAChunk = 512;
+  static constexpr std::size_t kHeaderBytes = 8, kStateBytes = 96;
 
   /// Agents beyond it are not shown.
   static constexpr std::uint32_t kAgentsMax = 1 << 20;
 
-  /// The number of this slot; nullopt: there are too many.
+  /// The number of this slot; nullopt: there are too many, or there is no such slot.
   std::optional<std::uint32_t> NumberOf(std::uint64_t simulator, std::uint32_t slot);
 
   void Take(const v1::AgentStates& states);
@@ -33,15 +34,13 @@ class StateTable {
   /// The agent has left: what is told of its number from now on is about another one.
   void Clear(std::uint64_t simulator, std::uint32_t slot);
 
-  /// The agents from number * kStatesOfAChunk on, as bytes; little-endian:
-  ///   u32 number of the first agent, u32 agents, f64 base time [s], f64 origin x y z [m],
-  ///   f64 step of a position [m], f64 unit of accelerations [m/s²], of angular velocities [rad/s];
-  /// then each agent in 64 bytes:
-  ///   u32 flags (1 it has a state, 2 not clear, 4 saturated, 8 discontinuity),
-  ///   i32 stamp from the base time on [µs], i32 position x y z from the origin on [steps],
-  ///   f32 velocity x y z [m/s], i16 acceleration x y z, i16 angular velocity x y z [units],
-  ///   i16 orientation w x y z [1/32000], f32 error of the position [m], of the velocity [m/s],
-  ///   f32 clear until, from the base time on [s]; -inf: no promise.
+  /// The agents from number * kStatesOfAChunk on, as bytes; little-endian: u32 number of the first
+  /// agent, u32 agents, then each in kStateBytes:
+  ///   u32 flags (1 it has a state, 2 not clear, 4 saturated, 8 discontinuity), f32 clear until,
+  ///   from the stamp on [s] (-inf: no promise), f64 stamp [s], f64 position x y z [m],
+  ///   f32 velocity x y z [m/s], f32 acceleration x y z, f32 angular velocity x y z,
+  ///   f32 error of the position [m], of the velocity [m/s], i16 orientation w x y z [1/32000],
+  ///   4 bytes of 0.
   /// Rounded to nearest: for eyes, not for proofs.
   struct Chunk {
     std::uint32_t number = 0;
@@ -75,8 +74,7 @@ class StateTable {
   };
 
   Agent* Find(std::uint64_t simulator, std::uint32_t slot);
-  void MarkChanged(std::uint32_t number);
-  std::string Pack(std::uint32_t chunk) const;
+  static void PackAgent(const Agent& agent, std::string* bytes);
 
   std::unordered_map<Slot, std::uint32_t, SlotHash> numbers_;
   std::vector<Agent> agents_;

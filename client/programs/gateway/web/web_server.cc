@@ -9,6 +9,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
+#include <iostream>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -94,10 +95,10 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
     if (!is_open_ || is_writing_) return;
     message_ = viewer_->Next();
     if (!message_) return;
-    is_writing_ = true;
     stream_.text(message_->is_text);
     std::vector<asio::const_buffer> buffers;
     for (const Payload& piece : message_->pieces) buffers.emplace_back(asio::buffer(*piece));
+    is_writing_ = true;
     stream_.async_write(buffers, [self = shared_from_this()](error_code failed, std::size_t) {
       self->is_writing_ = false;
       if (failed) return self->End();
@@ -147,6 +148,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   void Read() {
     parser_.emplace();
+    query_.clear();
     parser_->body_limit(common_->options.request_bytes_max);
     stream_.expires_after(kPatience);
     http::async_read(stream_, buffer_, *parser_,
@@ -235,6 +237,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     response_.content_length(answer_.body->size());
     response_.keep_alive(answer_.status < 400 && request.keep_alive());
     serializer_.emplace(response_);
+    stream_.expires_after(kPatience);
     http::async_write(stream_, *serializer_,
                       [self = shared_from_this()](error_code failed, std::size_t) {
                         if (!failed && self->response_.keep_alive()) return self->Read();
@@ -268,7 +271,7 @@ class WebServer::Implementation {
         again_(context_) {
     Listen();
     Accept();
-    thread_ = std::thread([this] { context_.run(); });
+    thread_ = std::thread([this] { Serve(); });
   }
 
   ~Implementation() {
@@ -290,6 +293,18 @@ class WebServer::Implementation {
   }
 
  private:
+  /// What one connection takes too much of ends that one.
+  void Serve() {
+    for (;;) {
+      try {
+        context_.run();
+        return;
+      } catch (const std::exception& failure) {
+        std::cerr << "collision-gateway: a connection has failed: " << failure.what() << '\n';
+      }
+    }
+  }
+
   void Listen() {
     const WebOptions& options = common_.options;
     error_code failed;
@@ -312,11 +327,12 @@ class WebServer::Implementation {
         return again_.async_wait([this](error_code) { Accept(); });
       }
       if (common_.connections < common_.options.connections_max) {
+        Accept();
         error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
         socket.set_option(asio::socket_base::send_buffer_size(common_.options.send_buffer_bytes),
                           ignored);
-        std::make_shared<HttpSession>(std::move(socket), &common_)->Read();
+        return std::make_shared<HttpSession>(std::move(socket), &common_)->Read();
       }
       Accept();
     });

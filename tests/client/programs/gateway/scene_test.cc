@@ -90,29 +90,56 @@ TEST_F(GatewaySceneTest, OldEventsThatAreOverMakeRoom) {
   std::size_t events = 0;
   for (const gateway::Board::Item& item : kept.items) events += item.name.starts_with("event/");
   EXPECT_EQ(events, gateway::EventBook::kEventsMax);
-  EXPECT_FALSE(Has(News(), "event/3", ""));
+  EXPECT_FALSE(std::ranges::any_of(kept.items, [](const gateway::Board::Item& item) {
+    return item.name == "event/3";
+  })) << "what is over goes first";
+  EXPECT_TRUE(std::ranges::any_of(kept.items, [](const gateway::Board::Item& item) {
+    return item.name.starts_with("gone/") &&
+           item.payload->find("\"event/3\",\"event\":null") != std::string::npos;
+  })) << "and those who have it are told";
 }
 
-TEST_F(GatewaySceneTest, WhatWasToldBeforeTimeBeganAnewIsForgotten) {
-  constexpr std::int64_t kSecond = 1'000'000'000;
+TEST_F(GatewaySceneTest, WhatWasToldInAFormerEpochIsForgotten) {
   v1::ServiceStatus status;
-  status.set_now_ns(100 * kSecond);
+  status.set_service_id(1);
+  status.mutable_stamp()->set_epoch(1);
   all_.status(status);
   v1::CollisionEvent old = Possible(1, 1, 1), fresh = Possible(2, 2, 1);
-  old.set_now_ns(99 * kSecond);
+  old.mutable_stamp()->set_epoch(1);
   all_.event(old);
-  News();
-  fresh.set_now_ns(0);
+  EXPECT_TRUE(Has(News(), "event/1", "\"epoch\":1"));
+  fresh.mutable_stamp()->set_epoch(2);
   all_.event(fresh);
-  status.set_now_ns(0);
+  status.mutable_stamp()->set_epoch(2);
   all_.status(status);
-  News();
-  const auto kept = board_.After(0, 1 << 20);
-  const auto has = [&kept](const std::string& name) {
-    return std::ranges::any_of(kept.items, [&](const auto& item) { return item.name == name; });
-  };
-  EXPECT_FALSE(has("event/1"));
-  EXPECT_TRUE(has("event/2"));
+  all_.event(old);  // that the network kept
+  const auto items = News();
+  EXPECT_TRUE(Has(items, "gone/0", "\"event/1\",\"event\":null")) << testing::PrintToString(items);
+  EXPECT_TRUE(Has(items, "event/2", "\"epoch\":2"));
+  EXPECT_FALSE(Has(items, "event/3", ""));
+}
+
+TEST_F(GatewaySceneTest, AnAgentOfASilentSimulatorIsTold) {
+  v1::AgentDescription description;
+  description.set_simulator_id(9);
+  description.set_run(1);
+  description.set_simulator_name("people");
+  description.set_agent_name("ada");
+  description.set_radius_m(0.5);
+  all_.description(description);
+  v1::ServiceStatus status;
+  v1::SimulatorStatus* people = status.add_simulators();
+  people->set_simulator_id(9);
+  people->set_name("people");
+  people->set_run(1);
+  people->set_alive(true);
+  all_.status(status);
+  EXPECT_TRUE(Has(News(), "agent/0", "\"presence\":\"held\""));
+  all_.status(status);
+  EXPECT_FALSE(Has(News(), "agent/0", "")) << "nothing has changed of it";
+  people->set_alive(false);
+  all_.status(status);
+  EXPECT_TRUE(Has(News(), "agent/0", "\"presence\":\"silent\""));
 }
 
 TEST_F(GatewaySceneTest, AnAgentIsDescribedAndLeaves) {

@@ -1,5 +1,7 @@
 // What was told of one agent, for a while back.
 
+const BEFORE_S = 0.5;
+
 /** States by their time; of a long past every second one is forgotten. */
 export class History {
   constructor(limit) {
@@ -28,9 +30,13 @@ export class History {
     return this.states.at(-1);
   }
 
-  /** The newest state that is not after `t`; of a time before all of them the first. */
+  /**
+   * The newest state that is not after `t`. The first one counts a little before its time, too:
+   * before that nothing is known.
+   */
   at(t) {
     const states = this.states;
+    if (states.length === 0 || t < states[0].t - BEFORE_S) return undefined;
     let low = 0, high = states.length;
     while (low < high) {
       const middle = (low + high) >> 1;
@@ -66,15 +72,18 @@ export function orientationAt(state, t) {
 }
 
 /**
- * The radius of the ball that contains all of an agent for certain at `t`, given what it declared:
- * its own radius, the errors of its state, and all that its acceleration may do since. Drawn, not
- * proven: the service computes with the declared speed, too, and rounds outward.
+ * The radius of the ball that contains all of an agent at `t`, given what it declared: its own
+ * radius, the errors of its state, all that its acceleration may do, the steps of its integrator,
+ * and a clock that is off by up to `skew` [s]. The bound of the service in doubles, to nearest: it
+ * may differ in the last digits. Source: collision_core/motion/space_time_bound.h.
  */
-export function certainRadius(state, declaration, t) {
-  const d = Math.max(0, t - state.t);
-  const radius = (declaration.radius_m ?? 0) + (declaration.margin_m ?? 0);
-  const grown = radius + state.positionError + state.velocityError * d +
-      (declaration.acceleration_max_m_s2 ?? 0) * d * d / 2 +
-      (declaration.jerk_max_m_s3 ?? 0) * d * d * d / 6;
-  return grown;
+export function certainRadius(state, declaration, t, skew = 0) {
+  const length = Math.abs(t - state.t) + skew, h = declaration.time_step_s ?? 0;
+  const own = (declaration.radius_m ?? 0) + (declaration.margin_m ?? 0);
+  const acceleration = declaration.acceleration_max_m_s2 ?? 0;
+  const jerk = declaration.jerk_max_m_s3 ?? 0;
+  return own + state.positionError + Math.hypot(...state.v) * skew +
+    state.velocityError * length + acceleration * length * (length + h) / 2 +
+    jerk * length * (length * length + 3 * h * length + 3 * h * h) / 6 +
+    Math.hypot(...state.a) * (skew + h / 2) * length;
 }

@@ -3,12 +3,16 @@ import { History, positionAt } from "./history.js";
 
 const STATES_MAX = 400000;  // Of all agents together.
 const STATES_LEAST = 16;    // Of one.
-const STATUSES_MAX = 1300;  // Ten minutes at the usual pace.
 const EVENTS_MAX = 20000;
 const DEPARTED_MAX = 2000;
 const PACE_MS = 2000;
 const CARRIED_MS = 500;     // So long at most time is carried on by itself.
 const SOON_S = 2;           // A contact that may begin within it is near.
+
+/** The service does not hold such an agent any more. */
+const GONE = ["not-held", "evicted", "removed-silent"];
+
+const isOpen = (event) => event.status === "possible" || event.status === "confirmed";
 
 /** Levels of alert, as the legend has them; a higher one counts. */
 export const LEVELS = ["calm", "possible", "soon", "contact"];
@@ -24,7 +28,9 @@ export class World extends EventTarget {
     this.reset();
   }
 
+  /** A new connection: all comes anew. */
   reset() {
+    this.dispatchEvent(new Event("anew"));
     this.agents = new Map();  // by number
     this.byId = new Map();    // the newest agent, by "SIMULATOR.slot"
     this.departed = new Set();
@@ -33,7 +39,7 @@ export class World extends EventTarget {
     this.standing = new Set(); // of these, what may be, is, or was a contact
     this.shapes = new Set();  // hashes that can be fetched
     this.status = null;
-    this.statuses = [];
+    this.skew = 0;
     this.earliest = null;
     this.connection = null;
     this.now = null;          // { t [s], heard [ms], rate }
@@ -46,9 +52,8 @@ export class World extends EventTarget {
       case "agent": return this.takeAgent(item.number, item.agent);
       case "event": return this.takeEvent(item);
       case "status":
-        this.status = item.status;
-        this.statuses.push({ heard: performance.now(), status: item.status });
-        if (this.statuses.length > STATUSES_MAX) this.statuses.shift();
+        this.takeService(item.status);
+        this.skew = item.skew_max_s;
         return this.takeNow(item.status.now_s);
       case "now": return this.takeNow(item.now_s);
       case "earliest": this.earliest = item.earliest; return;
@@ -59,7 +64,7 @@ export class World extends EventTarget {
 
   takeAgent(number, info) {
     const known = this.agents.get(number);
-    if (!info) {
+    if (!info || GONE.includes(info.presence)) {
       if (known) this.depart(known);
       return;
     }
@@ -109,7 +114,36 @@ export class World extends EventTarget {
     agent.history.add(state);
   }
 
+  /**
+   * What a service told in a former epoch is of another time. Of a service that has ended, and that
+   * no standby succeeds, nobody knows whether its open events go on.
+   */
+  takeService(status) {
+    const former = this.status;
+    this.status = status;
+    if (!former) return;
+    const isSame = former.service_id === status.service_id;
+    const isSuccessor = former.standbys.some((one) => one.service_id === status.service_id);
+    for (const one of [...this.standing]) {
+      const { event } = one;
+      const isOfEpoch = event.service_id !== status.service_id || event.epoch >= status.epoch;
+      if (!isOfEpoch) this.forgetEvent(one);
+      else if (!isSame && !isSuccessor && event.service_id !== status.service_id &&
+               isOpen(event)) this.standing.delete(one);
+    }
+  }
+
+  forgetEvent(one) {
+    this.events.delete(one.key);
+    this.standing.delete(one);
+  }
+
   takeEvent({ key, event, revisions, superseded }) {
+    if (!event) {
+      const gone = this.events.get(key);
+      if (gone) this.forgetEvent(gone);
+      return;
+    }
     const known = this.events.get(key);
     const one = Object.assign(known ?? {}, { key, event, revisions, link: eventLink(event) });
     // A forecast that came to nothing is of no interest any more, and there are many.
@@ -117,9 +151,7 @@ export class World extends EventTarget {
     this.events.set(key, one);
     one.isIdle ? this.standing.delete(one) : this.standing.add(one);
     if (this.events.size > EVENTS_MAX) {
-      const oldest = this.events.values().next().value;
-      this.events.delete(oldest.key);
-      this.standing.delete(oldest);
+      this.forgetEvent(this.events.values().next().value);
     }
   }
 
@@ -147,9 +179,7 @@ export class World extends EventTarget {
     this.times = [];
     for (const agent of [...this.departed]) this.forget(agent);
     for (const one of [...this.events.values()]) {
-      if (one.event.now_s <= t + 1) continue;
-      this.events.delete(one.key);
-      this.standing.delete(one);
+      if (one.event.now_s > t + 1) this.forgetEvent(one);
     }
     this.dispatchEvent(new Event("anew"));
   }

@@ -2,7 +2,7 @@
 
 const KIND_JSON = 0, KIND_STATES = 1;
 const HAS_STATE = 1, NOT_CLEAR = 2, SATURATED = 4, DISCONTINUITY = 8;
-const HEADER_BYTES = 64, STATE_BYTES = 64, SHORT_MAX = 32000;
+const HEADER_BYTES = 8, STATE_BYTES = 96, ORIENTATION_ONE = 32000;
 
 const text = new TextDecoder();
 
@@ -29,9 +29,6 @@ export function readItems(buffer, onJson, onState) {
  */
 function readStates(view, at, onState) {
   const first = view.getUint32(at, true), count = view.getUint32(at + 4, true);
-  const f64 = (offset) => view.getFloat64(at + offset, true);
-  const base = f64(8), origin = [f64(16), f64(24), f64(32)];
-  const step = f64(40), accelerationUnit = f64(48), rotationUnit = f64(56);
   for (let i = 0; i < count; ++i) {
     const s = at + HEADER_BYTES + i * STATE_BYTES;
     const flags = view.getUint32(s, true);
@@ -39,18 +36,20 @@ function readStates(view, at, onState) {
       onState(first + i, null);
       continue;
     }
-    const i16 = (offset, unit) => view.getInt16(s + offset, true) * unit;
     const f32 = (offset) => view.getFloat32(s + offset, true);
+    const f64 = (offset) => view.getFloat64(s + offset, true);
+    const i16 = (offset) => view.getInt16(s + offset, true) / ORIENTATION_ONE;
+    const t = f64(8);
     onState(first + i, {
-      t: base + 1e-6 * view.getInt32(s + 4, true),
-      p: [0, 1, 2].map((k) => origin[k] + step * view.getInt32(s + 8 + 4 * k, true)),
-      v: [f32(20), f32(24), f32(28)],
-      a: [i16(32, accelerationUnit), i16(34, accelerationUnit), i16(36, accelerationUnit)],
-      w: [i16(38, rotationUnit), i16(40, rotationUnit), i16(42, rotationUnit)],
-      q: [44, 46, 48, 50].map((offset) => i16(offset, 1 / SHORT_MAX)),
-      positionError: f32(52),
-      velocityError: f32(56),
-      clearUntil: base + f32(60),
+      t,
+      p: [f64(16), f64(24), f64(32)],
+      v: [f32(40), f32(44), f32(48)],
+      a: [f32(52), f32(56), f32(60)],
+      w: [f32(64), f32(68), f32(72)],
+      q: [i16(84), i16(86), i16(88), i16(90)],
+      positionError: f32(76),
+      velocityError: f32(80),
+      clearUntil: t + f32(4),
       notClear: (flags & NOT_CLEAR) !== 0,
       saturated: (flags & SATURATED) !== 0,
       jumped: (flags & DISCONTINUITY) !== 0,

@@ -38,11 +38,17 @@ export class LiveSource {
     this.heard = performance.now();
     ++this.messages;
     this.onLink("");
-    readItems(bytes, (item) => this.model.take(item),
-              (number, state) => this.model.takeState(number, state));
-    this.model.arrived();
-    // What is acknowledged has been shown: a page that is not drawn is sent no more.
-    this.socket.send("ack");
+    try {
+      readItems(bytes, (item) => this.model.take(item),
+                (number, state) => this.model.takeState(number, state));
+      this.model.arrived();
+    } finally {
+      // When it is shown: a page that is not drawn is sent no more.
+      const socket = this.socket;
+      requestAnimationFrame(() => {
+        if (socket.readyState === WebSocket.OPEN) socket.send("ack");
+      });
+    }
   }
 
   lookAtSilence() {

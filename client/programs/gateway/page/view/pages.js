@@ -38,6 +38,11 @@ export class Pages {
     this.draw(this.world.time());
   }
 
+  /** What was chosen is not there any more. */
+  forget() {
+    if (this.detail) this.show(this.id);
+  }
+
   showEvent(one) {
     this.detail = { key: one.key };
     this.draw(this.world.time());

@@ -104,7 +104,7 @@ export class Scene3D {
   /** To the place of an event, with both agents in view. */
   flyTo(event, t) {
     const sides = [event.lower, event.higher].map((side) => this.world.agentOf(side));
-    const points = sides.filter((agent) => agent?.history.newest)
+    const points = sides.filter((agent) => agent?.history.at(t))
       .map((agent) => positionAt(agent.history.at(t), t));
     const point = event.proximity?.point_m;
     if (point) points.push(point);
@@ -172,7 +172,7 @@ export class Scene3D {
 
   /** The ball that contains the agent for certain at `t`. */
   addBall(agent, state, t, opacity) {
-    const radius = certainRadius(state, agent.declaration, t);
+    const radius = certainRadius(state, agent.declaration, t, this.world.skew);
     const ball = new THREE.LineSegments(ringsOf(radius), new THREE.LineBasicMaterial({
       color: colorOf("certain"), transparent: true, opacity }));
     ball.position.set(...this.local(positionAt(state, t)));
