@@ -177,7 +177,8 @@ class Gateway {
                                         .contacts_missed = monitor_.contacts_missed(),
                                         .unreadable = monitor_.unreadable()});
     if (is_new) server_.Wake();
-    if (now < metrics_due_) return;
+    if (now < metrics_due_ && is_fresh == was_fresh_) return;
+    was_fresh_ = is_fresh;
     metrics_due_ = now + kMetricsPeriod;
     scene_.Beat();
     server_.Wake();
@@ -224,6 +225,7 @@ class Gateway {
   client::MessageMonitor monitor_;
   std::unique_ptr<client::AgentsWatcher> watcher_;
   std::uint64_t status_sequence_ = 0;
+  bool was_fresh_ = false;  ///< In the metrics.
   Time status_heard_{}, metrics_due_{}, watch_due_{};
   std::optional<Time> looked_;  ///< When a viewer was there last.
   WebServer server_;            // last: what it asks is there
