@@ -37,10 +37,12 @@ MessageMonitor::Callbacks Observer::Callbacks() {
   callbacks.states = [this](const v1::AgentStates& states) { Handle(states); };
   callbacks.rejection = [this](const v1::Rejection& rejection) { Handle(rejection); };
   callbacks.earliest = [this](const v1::EarliestIntersection& sample) {
+    if (IsOver(sample.stamp())) return;
     SeeTime(sample.now_ns());
     observations_.earliest.push_back(sample);
   };
   callbacks.clearance = [this](const v1::Clearance& sample) {
+    if (IsOver(sample.stamp())) return;
     SeeTime(sample.now_ns());
     observations_.clearances.push_back(sample);
     // Most have no cause, and a swarm's would fill the memory.
@@ -51,6 +53,8 @@ MessageMonitor::Callbacks Observer::Callbacks() {
   callbacks.status = [this](const v1::ServiceStatus& status) {
     // Keep the last status with agents: later ones no longer describe the scene.
     if (status.agents() > 0 || observations_.status.agents() == 0) observations_.status = status;
+    const bool has_begun = epoch_ || !status.simulators().empty();
+    if (has_begun && IsOver(status.stamp())) return;
     if (!status.simulators().empty()) SeeTime(status.now_ns());
   };
   return callbacks;
@@ -62,6 +66,15 @@ std::size_t Observer::Poll(std::chrono::nanoseconds timeout) {
   PrintProgress(false);
   std::fflush(stdout);  // also into a pipe, events show as they come
   return samples;
+}
+
+/// In lock-step the epoch of a scene ends when its simulators have flown to their end. What the
+/// service told last in it may have been replaced before it was read.
+bool Observer::IsOver(const v1::ServiceStamp& stamp) {
+  if (!epoch_) epoch_ = stamp.epoch();
+  if (real_time_ || stamp.epoch() <= *epoch_) return false;
+  SeeTime(end_ns_);
+  return true;
 }
 
 void Observer::SeeTime(std::int64_t now_ns) {

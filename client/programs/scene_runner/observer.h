@@ -71,6 +71,7 @@ class Observer {
   void Handle(const v1::AgentDescription& description);
   void Handle(const v1::AgentStates& states);
   void Handle(const v1::Rejection& rejection);
+  bool IsOver(const v1::ServiceStamp& stamp);
   void SeeTime(std::int64_t now_ns);
   void TimeEvent(const v1::CollisionEvent& event);
   void PrintEvents(Wall now);
@@ -96,6 +97,7 @@ class Observer {
   std::map<std::uint64_t, std::deque<std::pair<std::int64_t, Wall>>>
       states_;  // newest stamp, received
   std::optional<std::int64_t> now_ns_;
+  std::optional<std::uint32_t> epoch_;       ///< Of the scene.
   std::optional<Wall> began_at_, ended_at_;  // the run, as now_ns_ shows
   std::vector<double> latencies_;
   std::vector<std::string> rejections_;
