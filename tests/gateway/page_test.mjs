@@ -18,6 +18,18 @@ before(async () => (browser = await launch()));
 afterEach(() => Promise.all(browser.contexts().map((context) => context.close())));
 after(() => browser.close());
 
+const REAL_TIME = "clock { kind: REAL_TIME skew_max_s: 0.01 }\n";
+
+/** In a world in real time, a page that says that all is well. */
+async function pageThatIsWell(world) {
+  const service = await world.startService();
+  const gateway = await world.startGateway();
+  const page = await openPage(browser, gateway.address);
+  const verdict = () => page.locator("#verdict").textContent();
+  await until("it is well", async () => (await verdict()).startsWith("WELL"));
+  return { service, gateway, page, verdict };
+}
+
 /** A world with two that meet head-on at 4.5 s, each a simulator of its own. */
 async function twoThatMeet(domain) {
   const world = new TestWorld(domain, "clock { simulators_awaited: 2 }\n");
@@ -140,13 +152,9 @@ test("a link leads to an event, and a reader of the screen finds names", async (
 });
 
 test("a service that dies is told of, and found again", async () => {
-  const world = new TestWorld(142, "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
+  const world = new TestWorld(142, REAL_TIME);
   try {
-    const service = await world.startService();
-    const gateway = await world.startGateway();
-    const page = await openPage(browser, gateway.address);
-    const verdict = () => page.locator("#verdict").textContent();
-    await until("it is well", async () => (await verdict()).startsWith("WELL"));
+    const { service, gateway, page, verdict } = await pageThatIsWell(world);
     assert.equal((await fetch(`${gateway.address}readyz`)).status, 200);
 
     service.kill("SIGKILL");
@@ -176,7 +184,7 @@ test("a service that dies is told of, and found again", async () => {
 });
 
 test("a viewer that stands still costs nothing, and goes on with what is newest", async () => {
-  const world = new TestWorld(146, "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
+  const world = new TestWorld(146, REAL_TIME);
   try {
     await world.startService();
     const gateway = await world.startGateway();
@@ -223,13 +231,9 @@ test("a viewer that stands still costs nothing, and goes on with what is newest"
 });
 
 test("a service that hangs is told of, and one that goes on is found", async () => {
-  const world = new TestWorld(147, "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
+  const world = new TestWorld(147, REAL_TIME);
   try {
-    const service = await world.startService();
-    const gateway = await world.startGateway();
-    const page = await openPage(browser, gateway.address);
-    const verdict = () => page.locator("#verdict").textContent();
-    await until("it is well", async () => (await verdict()).startsWith("WELL"));
+    const { service, gateway, page, verdict } = await pageThatIsWell(world);
     service.kill("SIGSTOP");
     const stopped = Date.now();
     await until("it is told", async () => (await verdict()).includes("no service"));
@@ -248,8 +252,7 @@ test("a service that hangs is told of, and one that goes on is found", async () 
 });
 
 test("ten thousand agents are shown without long tasks", async () => {
-  const world = new TestWorld(143, "agents_max: 20000\npairs_max: 1000000\n" +
-                                   "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
+  const world = new TestWorld(143, "agents_max: 20000\npairs_max: 1000000\n" + REAL_TIME);
   try {
     await world.startService();
     // At ten times a second service and swarm take both of two processors, and the browser none.
@@ -324,7 +327,7 @@ test("metrics are what Prometheus takes, and what rules and dashboard ask for", 
 });
 
 test("requests that are not ours to answer are refused", async () => {
-  const world = new TestWorld(145, "clock { kind: REAL_TIME skew_max_s: 0.01 }\n");
+  const world = new TestWorld(145, REAL_TIME);
   try {
     await world.startService();
     const gateway = await world.startGateway();

@@ -37,8 +37,6 @@ class EventBook {
   /// Those that have changed since the last call.
   std::vector<Shown> TakeChanged(const client::WorldView& view);
 
-  std::size_t size() const { return events_.size(); }
-
  private:
   using Key = client::EventKey;
 

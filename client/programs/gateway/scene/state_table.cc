@@ -77,7 +77,6 @@ void StateTable::Take(const v1::AgentStates& states) {
     Agent* agent = Find(states.simulator_id(), state.slot());
     if (agent == nullptr || states.run() < agent->run) continue;
     agent->run = states.run();
-    agent->generation = state.generation();
     agent->has_state = true;
     agent->stamp_ns = state.stamp_ns();
     agent->p = ArrayOf(state.position_m());

@@ -52,7 +52,7 @@ class StateTable {
 
  private:
   struct Agent {
-    std::uint32_t run = 0, generation = 0;  ///< Of the state.
+    std::uint32_t run = 0;  ///< Of the state.
     bool has_state = false;
     std::int64_t stamp_ns = 0;
     std::array<double, 3> p{}, v{}, a{}, w{};
