@@ -14,9 +14,10 @@
 #include "client/library/network/dds_transport.h"
 #include "client/library/notices/notices.h"
 #include "client/programs/gateway/metrics/world_metrics.h"
-#include "client/programs/gateway/scene/page_viewer.h"
-#include "client/programs/gateway/scene/scene.h"
+#include "client/programs/gateway/page_viewer.h"
 #include "client/programs/gateway/site.h"
+#include "client/programs/scene/page_items.h"
+#include "client/programs/scene/scene.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/agents_watcher.h"
 #include "client/programs/tools/collisionctl/status/verdict.h"
@@ -109,7 +110,8 @@ class Gateway {
       : options_(options),
         page_(ReadPage(options)),
         site_(page_.get(), &shapes_),
-        scene_(&board_, &shapes_),
+        scene_(&shapes_),
+        items_(&board_),
         monitor_(MonitorOptionsOf(options), scene_.Callbacks()),
         server_(WebOptionsOf(options), Handlers()) {}
 
@@ -173,14 +175,15 @@ class Gateway {
                         .text = is_fresh ? client::Verdict(scene_.view()).front()
                                 : alive  ? "no status of the service has come for a while: it hangs"
                                          : "no service of this world is heard"});
-    const bool is_new = scene_.Publish({.service_alive = alive,
-                                        .contacts_missed = monitor_.contacts_missed(),
-                                        .unreadable = monitor_.unreadable()});
+    const bool is_new = items_.Put(scene_, scene_.TakeChanges(),
+                                   {.service_alive = alive,
+                                    .contacts_missed = monitor_.contacts_missed(),
+                                    .unreadable = monitor_.unreadable()});
     if (is_new) server_.Wake();
     if (now < metrics_due_ && is_fresh == was_fresh_) return;
     was_fresh_ = is_fresh;
     metrics_due_ = now + kMetricsPeriod;
-    scene_.Beat();
+    items_.Beat();
     server_.Wake();
     site_.SetMetrics(
         MakePayload(WorldMetrics(scene_.view(), {.world = options_.monitor.world,
@@ -217,11 +220,12 @@ class Gateway {
 
   const GatewayOptions& options_;
   const std::unique_ptr<const PageFiles> page_;
-  Board board_;
-  ShapeStore shapes_;
+  client::Board board_;
+  client::ShapeStore shapes_;
   Site site_;
   std::atomic<int> viewers_ = 0;
-  Scene scene_;
+  client::Scene scene_;
+  client::PageItems items_;
   client::MessageMonitor monitor_;
   std::unique_ptr<client::AgentsWatcher> watcher_;
   std::uint64_t status_sequence_ = 0;

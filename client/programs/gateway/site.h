@@ -4,9 +4,9 @@
 #include <mutex>
 #include <string>
 
-#include "client/programs/gateway/scene/shape_store.h"
 #include "client/programs/gateway/web/page_files.h"
 #include "client/programs/gateway/web/web_types.h"
+#include "client/programs/scene/shape_store.h"
 
 namespace collision::gateway {
 
@@ -20,7 +20,8 @@ struct Readiness {
 class Site {
  public:
   /// `files` may be null: then there is no page. Both outlive it.
-  Site(const PageFiles* files, const ShapeStore* shapes) : files_(files), shapes_(*shapes) {}
+  Site(const PageFiles* files, const client::ShapeStore* shapes)
+      : files_(files), shapes_(*shapes) {}
 
   WebResponse Answer(const WebRequest& request) const;
 
@@ -31,7 +32,7 @@ class Site {
   WebResponse Shape(const std::string& name) const;
 
   const PageFiles* const files_;
-  const ShapeStore& shapes_;
+  const client::ShapeStore& shapes_;
   mutable std::mutex mutex_;
   Readiness readiness_;  ///< Guarded by it, as is all below.
   Payload metrics_;

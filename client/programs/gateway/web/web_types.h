@@ -9,14 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "client/programs/scene/payload.h"
+
 namespace collision::gateway {
 
-/// Bytes that several viewers share.
-using Payload = std::shared_ptr<const std::string>;
-
-inline Payload MakePayload(std::string bytes) {
-  return std::make_shared<const std::string>(std::move(bytes));
-}
+using client::MakePayload;
+using client::Payload;
 
 /// A request by GET or HEAD, or by POST with its body.
 struct WebRequest {

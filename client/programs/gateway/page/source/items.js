@@ -1,4 +1,4 @@
-// The items of the gateway's protocol (gateway/scene/item.h, state_table.h) from their bytes.
+// The items of the gateway's protocol (scene/item.h, state_table.h) from their bytes.
 
 const KIND_JSON = 0, KIND_STATES = 1;
 const HAS_STATE = 1, NOT_CLEAR = 2, SATURATED = 4, DISCONTINUITY = 8;

@@ -1,27 +1,13 @@
-#include "client/programs/gateway/scene/event_book.h"
+#include "client/programs/scene/event_book.h"
 
-#include "client/library/network/conversion.h"
-#include "client/programs/tools/collisionctl/events/event_filter.h"
-#include "client/programs/tools/collisionctl/json/event_json.h"
-#include "collision/event_text.h"
+#include <utility>
 
-namespace collision::gateway {
+namespace collision::client {
 namespace {
-
-using client::JsonObject;
 
 bool IsOpen(v1::EventStatus status) {
   return status == v1::EVENT_POSSIBLE || status == v1::EVENT_CONFIRMED;
 }
-
-std::string BracketJson(const v1::TimeBracket& bracket) {
-  return JsonObject()
-      .Instant("earliest", bracket.earliest_ns())
-      .Instant("latest", bracket.latest_ns())
-      .Json();
-}
-
-std::string KeyText(std::uint64_t number) { return "event/" + std::to_string(number); }
 
 }  // namespace
 
@@ -29,7 +15,7 @@ void EventBook::Take(const v1::CollisionEvent& event) {
   const v1::ServiceStamp& stamp = event.stamp();
   if (stamp.service_id() == service_ && stamp.epoch() < epoch_) return;  // of a former epoch
   if (const auto ended = slots_.Take(event)) Supersede(*ended);
-  const Key key = client::KeyOf(event);
+  const Key key = KeyOf(event);
   const auto [place, is_new] = events_.try_emplace(key);
   Entry& entry = place->second;
   if (is_new) {
@@ -75,7 +61,7 @@ void EventBook::DropOldest() {
 }
 
 void EventBook::Drop(std::map<std::uint64_t, Key>::iterator oldest) {
-  dropped_.push_back(KeyText(oldest->first));
+  dropped_.push_back(oldest->first);
   changed_.erase(oldest->second);
   events_.erase(oldest->second);
   by_age_.erase(oldest);
@@ -92,36 +78,12 @@ void EventBook::ForgetEpochsBefore(const v1::ServiceStamp& stamp, std::uint64_t 
   }
 }
 
-std::vector<EventBook::Shown> EventBook::TakeChanged(const client::WorldView& view) {
-  std::vector<Shown> pages;
-  for (std::string& key : std::exchange(dropped_, {})) pages.push_back({std::move(key), ""});
+EventBook::Changes EventBook::TakeChanges() {
+  Changes changes{.dropped = std::exchange(dropped_, {}), .changed = {}};
   for (const Key& key : std::exchange(changed_, {})) {
-    const Entry& entry = events_.at(key);
-    pages.push_back({KeyText(entry.number), JsonOf(entry, view)});
+    changes.changed.push_back(events_.at(key).number);
   }
-  return pages;
+  return changes;
 }
 
-std::string EventBook::JsonOf(const Entry& entry, const client::WorldView& view) {
-  const auto full_name = [&view](const client::AgentId& id) { return view.FullName(id); };
-  const std::string sentence = client::EventSentence(client::FromMessage(entry.newest), full_name,
-                                                     client::NowOf(entry.newest, view), 0);
-  std::vector<std::string> revisions;
-  for (const Revision& revision : entry.revisions) {
-    JsonObject one;
-    one.Instant("now", revision.now_ns)
-        .Add("begin", BracketJson(revision.begin))
-        .Add("end", BracketJson(revision.end))
-        .Text("status", client::Name(static_cast<client::EventStatus>(revision.status)));
-    revisions.push_back(one.Json());
-  }
-  return JsonObject()
-      .Text("item", "event")
-      .Text("key", KeyText(entry.number))
-      .Flag("superseded", entry.is_superseded)
-      .Add("event", client::EventJson(entry.newest, view, sentence))
-      .Add("revisions", client::JsonArray(revisions))
-      .Json();
-}
-
-}  // namespace collision::gateway
+}  // namespace collision::client

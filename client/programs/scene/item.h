@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "client/programs/gateway/web/web_types.h"
+#include "client/programs/scene/payload.h"
 
-namespace collision::gateway {
+namespace collision::client {
 
 /// What an item's bytes are.
 enum class ItemKind : std::uint32_t {
@@ -27,4 +27,4 @@ inline Payload MakeItem(ItemKind kind, std::string bytes) {
   return MakePayload(item + bytes);
 }
 
-}  // namespace collision::gateway
+}  // namespace collision::client

@@ -5,15 +5,13 @@
 #include <cstdint>
 #include <map>
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "client/programs/shared/forecast_slots.h"
-#include "client/programs/shared/world_view.h"
 #include "idl/messages.pb.h"
 
-namespace collision::gateway {
+namespace collision::client {
 
 /// Keeps each event with what its revisions said, the newest kEventsMax; those that are over go
 /// first. One thread.
@@ -28,18 +26,6 @@ class EventBook {
   /// This stamp of this service counts: what it told in former epochs is forgotten.
   void ForgetEpochsBefore(const v1::ServiceStamp& stamp, std::uint64_t service);
 
-  /// An event for viewers.
-  struct Shown {
-    std::string key;
-    std::string json;  ///< Empty: it is not kept any more.
-  };
-
-  /// Those that have changed since the last call.
-  std::vector<Shown> TakeChanged(const client::WorldView& view);
-
- private:
-  using Key = client::EventKey;
-
   struct Revision {
     std::int64_t now_ns = 0;
     v1::TimeBracket begin, end;
@@ -47,25 +33,39 @@ class EventBook {
   };
 
   struct Entry {
-    std::uint64_t number = 0;  ///< Of the event, for its key.
+    std::uint64_t number = 0;  ///< From 1, in the order in which events were told first.
     v1::CollisionEvent newest;
     std::vector<Revision> revisions;
     bool is_superseded = false;  ///< A forecast of which nothing more will be told.
   };
 
+  /// By their numbers.
+  struct Changes {
+    std::vector<std::uint64_t> dropped;  ///< Not kept any more.
+    std::vector<std::uint64_t> changed;
+  };
+
+  /// Since the last call.
+  Changes TakeChanges();
+
+  /// Requires that it is kept.
+  const Entry& At(std::uint64_t number) const { return events_.at(by_age_.at(number)); }
+
+ private:
+  using Key = EventKey;
+
   void Supersede(const Key& key);
   void Drop(std::map<std::uint64_t, Key>::iterator oldest);
   void DropOldest();
-  static std::string JsonOf(const Entry& entry, const client::WorldView& view);
 
   std::map<Key, Entry> events_;
   std::map<std::uint64_t, Key> by_age_;  ///< By the number of the event.
   std::set<Key> changed_;
-  client::ForecastSlots slots_;
-  std::vector<std::string> dropped_;
+  ForecastSlots slots_;
+  std::vector<std::uint64_t> dropped_;
   std::uint64_t last_ = 0;
   std::uint64_t service_ = 0;  ///< In force, and its epoch.
   std::uint32_t epoch_ = 0;
 };
 
-}  // namespace collision::gateway
+}  // namespace collision::client

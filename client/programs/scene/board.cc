@@ -1,6 +1,6 @@
-#include "client/programs/gateway/scene/board.h"
+#include "client/programs/scene/board.h"
 
-namespace collision::gateway {
+namespace collision::client {
 
 void Board::Put(const std::string& name, Payload payload) {
   const std::lock_guard lock(mutex_);
@@ -37,4 +37,4 @@ std::size_t Board::size() const {
   return changes_.size();
 }
 
-}  // namespace collision::gateway
+}  // namespace collision::client

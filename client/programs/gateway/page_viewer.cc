@@ -1,15 +1,15 @@
-#include "client/programs/gateway/scene/page_viewer.h"
+#include "client/programs/gateway/page_viewer.h"
 
 namespace collision::gateway {
 
 std::optional<WebMessage> PageViewer::Next() {
   if (unacknowledged_ == kUnacknowledgedMax) return std::nullopt;
-  Board::News news = board_.After(seen_, kMessageBytes);
+  client::Board::News news = board_.After(seen_, kMessageBytes);
   if (news.items.empty()) return std::nullopt;
   seen_ = news.seen;
   ++unacknowledged_;
   WebMessage message;
-  for (Board::Item& item : news.items) message.pieces.push_back(std::move(item.payload));
+  for (client::Board::Item& item : news.items) message.pieces.push_back(std::move(item.payload));
   return message;
 }
 

@@ -1,14 +1,13 @@
 // Goal:   a viewer gets everything once, of what changed meanwhile the newest alone, and nothing
 //         that is gone.
 // Method: items by hand, and two viewers, one of which comes rarely.
-#include "client/programs/gateway/scene/board.h"
+#include "client/programs/scene/board.h"
 
 #include <gtest/gtest.h>
 
-#include "client/programs/gateway/scene/item.h"
-#include "client/programs/gateway/scene/page_viewer.h"
+#include "client/programs/scene/item.h"
 
-namespace collision::gateway {
+namespace collision::client {
 namespace {
 
 constexpr std::size_t kNoLimit = 1 << 20;
@@ -55,29 +54,6 @@ TEST(Board, MuchIsTakenPieceByPieceAndWhole) {
   EXPECT_EQ(board.After(0, 1).items.size(), 1u) << "one that is too large goes alone";
 }
 
-TEST(PageViewer, WaitsUntilTwoMessagesAreShown) {
-  Board board;
-  PageViewer viewer(&board);
-  EXPECT_FALSE(viewer.Next()) << "nothing is there";
-  for (const char* text : {"1", "2"}) {
-    board.Put("a", MakePayload(text));
-    const auto message = viewer.Next();
-    ASSERT_TRUE(message);
-    EXPECT_FALSE(message->is_text);
-    EXPECT_EQ(*message->pieces.at(0), text);
-  }
-  board.Put("a", MakePayload("3"));
-  board.Put("a", MakePayload("4"));
-  EXPECT_FALSE(viewer.Next()) << "two are on their way";
-  EXPECT_EQ(viewer.Hear("ack", true), "");
-  EXPECT_EQ(*viewer.Next()->pieces.at(0), "4") << "what was overtaken is not sent";
-  EXPECT_EQ(viewer.Hear("ack", true), "");
-  EXPECT_EQ(viewer.Hear("ack", true), "");
-  EXPECT_NE(viewer.Hear("ack", true), "") << "nothing is left to acknowledge";
-  EXPECT_NE(viewer.Hear("hello", true), "");
-  EXPECT_NE(viewer.Hear("ack", false), "");
-}
-
 TEST(Item, IsFilledUpToEightBytes) {
   const Payload item = MakeItem(ItemKind::kJson, "{\"a\": 1}x");
   EXPECT_EQ(item->size(), 8u + 16u);
@@ -86,4 +62,4 @@ TEST(Item, IsFilledUpToEightBytes) {
 }
 
 }  // namespace
-}  // namespace collision::gateway
+}  // namespace collision::client

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "client/programs/gateway/scene/board.h"
 #include "client/programs/gateway/web/web_types.h"
+#include "client/programs/scene/board.h"
 
 namespace collision::gateway {
 
@@ -23,13 +23,13 @@ class PageViewer final : public WebViewer {
   static constexpr std::size_t kMessageBytes = 4 << 20;  ///< About; an item is sent whole.
 
   /// `board` outlives it.
-  explicit PageViewer(const Board* board) : board_(*board) {}
+  explicit PageViewer(const client::Board* board) : board_(*board) {}
 
   std::optional<WebMessage> Next() override;
   std::string Hear(const std::string& message, bool is_text) override;
 
  private:
-  const Board& board_;
+  const client::Board& board_;
   std::uint64_t seen_ = 0;
   int unacknowledged_ = 0;
 };

@@ -1,11 +1,11 @@
-#include "client/programs/gateway/scene/shape_store.h"
+#include "client/programs/scene/shape_store.h"
 
 #include <utility>
 
 #include "idl/limits.h"
 #include "idl/sha256.h"
 
-namespace collision::gateway {
+namespace collision::client {
 
 bool ShapeStore::Take(const v1::ShapePart& part) {
   const std::lock_guard lock(mutex_);
@@ -45,4 +45,4 @@ Payload ShapeStore::Find(const std::string& hash) const {
   return found == whole_.end() ? nullptr : found->second;
 }
 
-}  // namespace collision::gateway
+}  // namespace collision::client

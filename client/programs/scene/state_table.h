@@ -12,7 +12,7 @@
 
 #include "idl/messages.pb.h"
 
-namespace collision::gateway {
+namespace collision::client {
 
 /// Agents by number: the place of a simulator's slot in this table, for as long as the program
 /// runs. States that the service would refuse are not shown. One thread.
@@ -28,40 +28,46 @@ class StateTable {
   /// The number of this slot; nullopt: there are too many, or there is no such slot.
   std::optional<std::uint32_t> NumberOf(std::uint64_t simulator, std::uint32_t slot);
 
+  /// Likewise, of a slot that has one.
+  std::optional<std::uint32_t> Known(std::uint64_t simulator, std::uint32_t slot) const;
+
   void Take(const v1::AgentStates& states);
   void Take(const v1::Clearance& clearance);
 
   /// The agent has left: what is told of its number from now on is about another one.
   void Clear(std::uint64_t simulator, std::uint32_t slot);
 
-  /// The agents from number * kStatesOfAChunk on, as bytes; little-endian: u32 number of the first
-  /// agent, u32 agents, then each in kStateBytes:
+  struct Agent {
+    std::uint64_t simulator = 0;
+    std::uint32_t slot = 0;
+    std::uint32_t run = 0;  ///< Of the state.
+    bool has_state = false;
+    std::int64_t stamp_ns = 0;
+    std::array<double, 3> p{}, v{}, a{}, w{};
+    std::array<double, 4> q{1, 0, 0, 0};  ///< w x y z.
+    double position_error = 0, velocity_error = 0;
+    bool discontinuity = false, not_clear = false, saturated = false, is_promised = false;
+    std::int64_t clear_until_ns = 0;
+  };
+
+  /// By number.
+  const std::vector<Agent>& agents() const { return agents_; }
+
+  /// The chunks that have changed since the last call. Chunk `c` are the agents from
+  /// c * kStatesOfAChunk on.
+  std::vector<std::uint32_t> TakeChanged();
+
+  /// A chunk as bytes; little-endian: u32 number of the first agent, u32 agents, then each in
+  /// kStateBytes:
   ///   u32 flags (1 it has a state, 2 not clear, 4 saturated, 8 discontinuity), f32 clear until,
   ///   from the stamp on [s] (-inf: no promise), f64 stamp [s], f64 position x y z [m],
   ///   f32 velocity x y z [m/s], f32 acceleration x y z, f32 angular velocity x y z,
   ///   f32 error of the position [m], of the velocity [m/s], i16 orientation w x y z [1/32000],
   ///   4 bytes of 0.
   /// Rounded to nearest: for eyes, not for proofs.
-  struct Chunk {
-    std::uint32_t number = 0;
-    std::string bytes;
-  };
-
-  /// Packs all chunks that have changed since the last call.
-  std::vector<Chunk> TakeChanged();
+  std::string Pack(std::uint32_t chunk) const;
 
  private:
-  struct Agent {
-    std::uint32_t run = 0;  ///< Of the state.
-    bool has_state = false;
-    std::int64_t stamp_ns = 0;
-    std::array<double, 3> p{}, v{}, a{}, w{};
-    std::array<double, 4> q{1, 0, 0, 0};
-    double position_error = 0, velocity_error = 0;
-    bool discontinuity = false, not_clear = false, saturated = false, is_promised = false;
-    std::int64_t clear_until_ns = 0;
-  };
-
   struct Slot {
     std::uint64_t simulator = 0;
     std::uint32_t slot = 0;
@@ -81,4 +87,4 @@ class StateTable {
   std::vector<bool> changed_;  ///< By chunk.
 };
 
-}  // namespace collision::gateway
+}  // namespace collision::client

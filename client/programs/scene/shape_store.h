@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "client/programs/gateway/web/web_types.h"
+#include "client/programs/scene/payload.h"
 #include "idl/messages.pb.h"
 
-namespace collision::gateway {
+namespace collision::client {
 
 /// Gathers parts until a shape is whole and has the hash that it is named by. Any thread.
 class ShapeStore {
@@ -40,4 +40,4 @@ class ShapeStore {
   std::size_t bytes_ = 0;
 };
 
-}  // namespace collision::gateway
+}  // namespace collision::client

@@ -1,12 +1,12 @@
 // Goal:   a shape is there once all its parts have come, and only if it is what it is called; what
 //         simulators invent takes no more memory than is allowed.
-#include "client/programs/gateway/scene/shape_store.h"
+#include "client/programs/scene/shape_store.h"
 
 #include <gtest/gtest.h>
 
 #include "idl/sha256.h"
 
-namespace collision::gateway {
+namespace collision::client {
 namespace {
 
 v1::ShapePart PartOf(const std::string& hash, std::uint32_t part, std::uint32_t parts,
@@ -54,4 +54,4 @@ TEST(ShapeStore, PartsThatCannotBeAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace collision::gateway
+}  // namespace collision::client

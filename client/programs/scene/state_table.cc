@@ -1,4 +1,4 @@
-#include "client/programs/gateway/scene/state_table.h"
+#include "client/programs/scene/state_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "idl/limits.h"
 
-namespace collision::gateway {
+namespace collision::client {
 namespace {
 
 constexpr double kSecondsOfNs = 1e-9;
@@ -52,16 +52,18 @@ bool CanBe(const v1::AgentState& state) {
 
 std::optional<std::uint32_t> StateTable::NumberOf(std::uint64_t simulator, std::uint32_t slot) {
   const auto next = static_cast<std::uint32_t>(agents_.size());
-  if (next == kAgentsMax || slot > wire::kSlotMax) {
-    const auto known = numbers_.find({simulator, slot});
-    return known == numbers_.end() ? std::nullopt : std::optional(known->second);
-  }
+  if (next == kAgentsMax || slot > wire::kSlotMax) return Known(simulator, slot);
   const auto [place, is_new] = numbers_.try_emplace({simulator, slot}, next);
   if (is_new) {
-    agents_.emplace_back();
+    agents_.push_back({.simulator = simulator, .slot = slot});
     if (next / kStatesOfAChunk >= changed_.size()) changed_.push_back(false);
   }
   return place->second;
+}
+
+std::optional<std::uint32_t> StateTable::Known(std::uint64_t simulator, std::uint32_t slot) const {
+  const auto known = numbers_.find({simulator, slot});
+  return known == numbers_.end() ? std::nullopt : std::optional(known->second);
 }
 
 StateTable::Agent* StateTable::Find(std::uint64_t simulator, std::uint32_t slot) {
@@ -103,24 +105,28 @@ void StateTable::Take(const v1::Clearance& clearance) {
 }
 
 void StateTable::Clear(std::uint64_t simulator, std::uint32_t slot) {
-  if (Agent* agent = Find(simulator, slot)) *agent = {};
+  if (Agent* agent = Find(simulator, slot)) *agent = {.simulator = simulator, .slot = slot};
 }
 
-std::vector<StateTable::Chunk> StateTable::TakeChanged() {
-  std::vector<Chunk> chunks;
+std::vector<std::uint32_t> StateTable::TakeChanged() {
+  std::vector<std::uint32_t> chunks;
   for (std::uint32_t chunk = 0; chunk < changed_.size(); ++chunk) {
-    if (!changed_[chunk]) continue;
+    if (changed_[chunk]) chunks.push_back(chunk);
     changed_[chunk] = false;
-    const std::uint32_t first = chunk * kStatesOfAChunk;
-    const std::uint32_t count =
-        std::min(kStatesOfAChunk, static_cast<std::uint32_t>(agents_.size()) - first);
-    Chunk& packed = chunks.emplace_back(Chunk{.number = chunk, .bytes = {}});
-    packed.bytes.reserve(kHeaderBytes + kStateBytes * count);
-    Put(first, &packed.bytes);
-    Put(count, &packed.bytes);
-    for (std::uint32_t i = first; i < first + count; ++i) PackAgent(agents_[i], &packed.bytes);
   }
   return chunks;
+}
+
+std::string StateTable::Pack(std::uint32_t chunk) const {
+  const std::uint32_t first = chunk * kStatesOfAChunk;
+  const std::uint32_t count =
+      std::min(kStatesOfAChunk, static_cast<std::uint32_t>(agents_.size()) - first);
+  std::string bytes;
+  bytes.reserve(kHeaderBytes + kStateBytes * count);
+  Put(first, &bytes);
+  Put(count, &bytes);
+  for (std::uint32_t i = first; i < first + count; ++i) PackAgent(agents_[i], &bytes);
+  return bytes;
 }
 
 void StateTable::PackAgent(const Agent& agent, std::string* bytes) {
@@ -147,4 +153,4 @@ void StateTable::PackAgent(const Agent& agent, std::string* bytes) {
   Put(std::uint32_t{0}, bytes);
 }
 
-}  // namespace collision::gateway
+}  // namespace collision::client

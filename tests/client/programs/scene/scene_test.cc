@@ -1,27 +1,28 @@
 // Goal:   the board has what the world has: agents, the newest revision of each event with those
 //         before, forecasts that were overtaken, shapes that are whole; and nothing twice.
 // Method: messages by hand through a monitor without a network.
-#include "client/programs/gateway/scene/scene.h"
+#include "client/programs/scene/scene.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "client/programs/scene/page_items.h"
 #include "tests/client/fake_transport.h"
 #include "tests/client/programs/tools/collisionctl_fixture.h"
 
 namespace collision::client {
 namespace {
 
-class GatewaySceneTest : public CollisionctlTest {
+class SceneTest : public CollisionctlTest {
  protected:
   /// What is new since the last call, without the bytes around JSON.
   std::vector<std::string> News() {
-    scene_.Publish({.service_alive = true});
+    items_.Put(scene_, scene_.TakeChanges(), {.service_alive = true});
     const auto news = board_.After(seen_, 1 << 20);
     seen_ = news.seen;
     std::vector<std::string> items;
-    for (const gateway::Board::Item& item : news.items) {
+    for (const Board::Item& item : news.items) {
       items.push_back(item.name + " " + item.payload->substr(8));
     }
     return items;
@@ -44,14 +45,15 @@ class GatewaySceneTest : public CollisionctlTest {
     return event;
   }
 
-  gateway::Board board_;
-  gateway::ShapeStore shapes_;
-  gateway::Scene scene_{&board_, &shapes_};
+  Board board_;
+  ShapeStore shapes_;
+  Scene scene_{&shapes_};
+  PageItems items_{&board_};
   MessageMonitor::Callbacks all_ = scene_.Callbacks();
   std::uint64_t seen_ = 0;
 };
 
-TEST_F(GatewaySceneTest, AnEventComesWithItsRevisions) {
+TEST_F(SceneTest, AnEventComesWithItsRevisions) {
   all_.event(Possible(5, 1, 1));
   all_.event(Possible(5, 1, 2));
   const auto items = News();
@@ -61,7 +63,7 @@ TEST_F(GatewaySceneTest, AnEventComesWithItsRevisions) {
   EXPECT_TRUE(News().empty()) << "nothing is told twice";
 }
 
-TEST_F(GatewaySceneTest, AForecastThatAnotherPairReplacedIsOver) {
+TEST_F(SceneTest, AForecastThatAnotherPairReplacedIsOver) {
   all_.event(Possible(5, 1, 1));
   EXPECT_TRUE(Has(News(), "event/1", "\"superseded\":false"));
   all_.event(Possible(5, 2, 1));
@@ -70,7 +72,7 @@ TEST_F(GatewaySceneTest, AForecastThatAnotherPairReplacedIsOver) {
   EXPECT_TRUE(Has(items, "event/2", "\"superseded\":false"));
 }
 
-TEST_F(GatewaySceneTest, AContactIsNotOverBecauseItsSlotIsUsed) {
+TEST_F(SceneTest, AContactIsNotOverBecauseItsSlotIsUsed) {
   v1::CollisionEvent contact = Possible(5, 1, 1);
   contact.set_status(v1::EVENT_CONFIRMED);
   all_.event(Possible(5, 1, 1));
@@ -79,8 +81,8 @@ TEST_F(GatewaySceneTest, AContactIsNotOverBecauseItsSlotIsUsed) {
   EXPECT_TRUE(Has(News(), "event/1", "\"superseded\":false"));
 }
 
-TEST_F(GatewaySceneTest, OldEventsThatAreOverMakeRoom) {
-  for (std::uint32_t i = 1; i <= gateway::EventBook::kEventsMax + 10; ++i) {
+TEST_F(SceneTest, OldEventsThatAreOverMakeRoom) {
+  for (std::uint32_t i = 1; i <= EventBook::kEventsMax + 10; ++i) {
     v1::CollisionEvent event = Possible(i, i, 1);
     if (i == 3) event.set_status(v1::EVENT_DISMISSED);
     all_.event(event);
@@ -88,18 +90,18 @@ TEST_F(GatewaySceneTest, OldEventsThatAreOverMakeRoom) {
   News();
   const auto kept = board_.After(0, 1 << 30);
   std::size_t events = 0;
-  for (const gateway::Board::Item& item : kept.items) events += item.name.starts_with("event/");
-  EXPECT_EQ(events, gateway::EventBook::kEventsMax);
-  EXPECT_FALSE(std::ranges::any_of(kept.items, [](const gateway::Board::Item& item) {
+  for (const Board::Item& item : kept.items) events += item.name.starts_with("event/");
+  EXPECT_EQ(events, EventBook::kEventsMax);
+  EXPECT_FALSE(std::ranges::any_of(kept.items, [](const Board::Item& item) {
     return item.name == "event/3";
   })) << "what is over goes first";
-  EXPECT_TRUE(std::ranges::any_of(kept.items, [](const gateway::Board::Item& item) {
+  EXPECT_TRUE(std::ranges::any_of(kept.items, [](const Board::Item& item) {
     return item.name.starts_with("gone/") &&
            item.payload->find("\"event/3\",\"event\":null") != std::string::npos;
   })) << "and those who have it are told";
 }
 
-TEST_F(GatewaySceneTest, WhatWasToldInAFormerEpochIsForgotten) {
+TEST_F(SceneTest, WhatWasToldInAFormerEpochIsForgotten) {
   v1::ServiceStatus status;
   status.set_service_id(1);
   status.mutable_stamp()->set_epoch(1);
@@ -119,7 +121,7 @@ TEST_F(GatewaySceneTest, WhatWasToldInAFormerEpochIsForgotten) {
   EXPECT_FALSE(Has(items, "event/3", ""));
 }
 
-TEST_F(GatewaySceneTest, AnAgentOfASilentSimulatorIsTold) {
+TEST_F(SceneTest, AnAgentOfASilentSimulatorIsTold) {
   v1::AgentDescription description;
   description.set_simulator_id(9);
   description.set_run(1);
@@ -142,7 +144,7 @@ TEST_F(GatewaySceneTest, AnAgentOfASilentSimulatorIsTold) {
   EXPECT_TRUE(Has(News(), "agent/0", "\"presence\":\"silent\""));
 }
 
-TEST_F(GatewaySceneTest, AnAgentIsDescribedAndLeaves) {
+TEST_F(SceneTest, AnAgentIsDescribedAndLeaves) {
   v1::AgentDescription description;
   description.set_simulator_id(9);
   description.set_slot(4);

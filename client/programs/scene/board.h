@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "client/programs/gateway/web/web_types.h"
+#include "client/programs/scene/payload.h"
 
-namespace collision::gateway {
+namespace collision::client {
 
 /// Items by name, each with its newest payload, in the order in which they changed. A viewer knows
 /// up to which change it has everything, and takes what changed since: of an item that changed
@@ -52,4 +52,4 @@ class Board {
   std::uint64_t last_ = 0;
 };
 
-}  // namespace collision::gateway
+}  // namespace collision::client

@@ -1,6 +1,6 @@
 // Goal:   what the page unpacks is what was told.
 // Method: the packed bytes are read by the layout that the header documents.
-#include "client/programs/gateway/scene/state_table.h"
+#include "client/programs/scene/state_table.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-namespace collision::gateway {
+namespace collision::client {
 namespace {
 
 constexpr std::int64_t kSecondNs = 1'000'000'000;
@@ -59,7 +59,7 @@ TEST(StateTable, PacksWhatWasTold) {
 
   const auto chunks = table.TakeChanged();
   ASSERT_EQ(chunks.size(), 1u);
-  const std::string& bytes = chunks[0].bytes;
+  const std::string bytes = table.Pack(chunks[0]);
   ASSERT_EQ(bytes.size(), 8u + 2 * 96u);
   EXPECT_EQ(At<std::uint32_t>(bytes, 0), 0u);
   EXPECT_EQ(At<std::uint32_t>(bytes, 4), 2u);
@@ -93,8 +93,9 @@ TEST(StateTable, StatesThatCannotBeAreLeftOut) {
   table.Take(states);
   const auto chunks = table.TakeChanged();
   ASSERT_EQ(chunks.size(), 1u);
-  EXPECT_EQ(At<std::uint32_t>(chunks[0].bytes, 4), 1u);
-  EXPECT_EQ(At<double>(chunks[0].bytes, 8 + 16), 1);
+  const std::string bytes = table.Pack(chunks[0]);
+  EXPECT_EQ(At<std::uint32_t>(bytes, 4), 1u);
+  EXPECT_EQ(At<double>(bytes, 8 + 16), 1);
 }
 
 TEST(StateTable, TellsOnlyChunksThatChanged) {
@@ -111,8 +112,8 @@ TEST(StateTable, TellsOnlyChunksThatChanged) {
   table.Take(one);
   const auto chunks = table.TakeChanged();
   ASSERT_EQ(chunks.size(), 1u);
-  EXPECT_EQ(chunks[0].number, 1u);
-  EXPECT_EQ(At<std::uint32_t>(chunks[0].bytes, 0), StateTable::kStatesOfAChunk);
+  EXPECT_EQ(chunks[0], 1u);
+  EXPECT_EQ(At<std::uint32_t>(table.Pack(1), 0), StateTable::kStatesOfAChunk);
 }
 
 TEST(StateTable, AnAgentThatLeftHasNoStateAndKeepsItsNumber) {
@@ -126,10 +127,10 @@ TEST(StateTable, AnAgentThatLeftHasNoStateAndKeepsItsNumber) {
   v1::AgentStates old = StatesOf(7, 1);
   Add(&old, 0, 99, 99);
   table.Take(old);
-  EXPECT_EQ(At<double>(table.TakeChanged().at(0).bytes, 8 + 16), 1) << "of an earlier run";
+  EXPECT_EQ(At<double>(table.Pack(table.TakeChanged().at(0)), 8 + 16), 1) << "of an earlier run";
   table.Clear(7, 0);
-  EXPECT_EQ(At<std::uint32_t>(table.TakeChanged().at(0).bytes, 8), 0u);
+  EXPECT_EQ(At<std::uint32_t>(table.Pack(table.TakeChanged().at(0)), 8), 0u);
 }
 
 }  // namespace
-}  // namespace collision::gateway
+}  // namespace collision::client
