@@ -32,6 +32,30 @@ void CopyTimes(const v1::RecordedBatch& from, v1::RecordedBatch* to) {
   if (from.has_granted_ns()) to->set_granted_ns(from.granted_ns());
 }
 
+bool WriteInParts(const v1::RecordedBatch& batch,
+                  const std::function<bool(const v1::RecordingEntry&)>& write) {
+  v1::RecordingEntry entry;
+  std::uint64_t bytes = kEntryOverhead;
+  const auto begin_part = [&] {
+    v1::RecordedBatch& part = *entry.mutable_batch();
+    part.Clear();
+    CopyTimes(batch, &part);
+    bytes = kEntryOverhead;
+  };
+  begin_part();
+  for (const v1::Input& input : batch.inputs()) {
+    const std::uint64_t more = input.ByteSizeLong() + kInputOverhead;
+    if (bytes + more > wire::kEntryBytesMax && entry.batch().inputs_size() > 0) {
+      entry.mutable_batch()->set_continued(true);
+      if (!write(entry)) return false;
+      begin_part();
+    }
+    *entry.mutable_batch()->add_inputs() = input;
+    bytes += more;
+  }
+  return write(entry);
+}
+
 void KeepFormerRecordings(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error) || std::filesystem::is_empty(file, error)) {
@@ -65,34 +89,12 @@ bool RecordingWriter::Record(const v1::RecordedBatch& batch) {
   if (!error_.empty()) return false;
   const std::lock_guard lock(writing_);
   const std::uint64_t begin = offset_;
-  if (WriteParts(batch)) return true;
+  const auto write = [this](const v1::RecordingEntry& entry) { return Write(entry); };
+  if (WriteInParts(batch, write)) return true;
   if (ftruncate(file_, static_cast<off_t>(begin)) != 0) {
     error_ += "; the file ends in the middle of a batch";
   }
   return false;
-}
-
-bool RecordingWriter::WriteParts(const v1::RecordedBatch& batch) {
-  v1::RecordingEntry entry;
-  std::uint64_t bytes = kEntryOverhead;
-  const auto begin_part = [&] {
-    v1::RecordedBatch& part = *entry.mutable_batch();
-    part.Clear();
-    CopyTimes(batch, &part);
-    bytes = kEntryOverhead;
-  };
-  begin_part();
-  for (const v1::Input& input : batch.inputs()) {
-    const std::uint64_t more = input.ByteSizeLong() + kInputOverhead;
-    if (bytes + more > wire::kEntryBytesMax && entry.batch().inputs_size() > 0) {
-      entry.mutable_batch()->set_continued(true);
-      if (!Write(entry)) return false;
-      begin_part();
-    }
-    *entry.mutable_batch()->add_inputs() = input;
-    bytes += more;
-  }
-  return Write(entry);
 }
 
 bool RecordingWriter::Write(const v1::RecordingEntry& entry) {

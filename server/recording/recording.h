@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -27,6 +28,12 @@ class BatchSink {
 
 /// All of a batch but its inputs.
 void CopyTimes(const v1::RecordedBatch& from, v1::RecordedBatch* to);
+
+/// Hands on a batch as entries of at most wire::kEntryBytesMax, of which all but the last are
+/// `continued`, until `write` returns false. Returns what it returned last. An input that is larger
+/// alone is an entry of its own, which cannot be read.
+bool WriteInParts(const v1::RecordedBatch& batch,
+                  const std::function<bool(const v1::RecordingEntry&)>& write);
 
 /// Former recordings that are kept beside a new one of the same name.
 inline constexpr int kFormerRecordingsMax = 3;
@@ -64,7 +71,6 @@ class RecordingWriter final : public BatchSink {
 
  private:
   bool Write(const v1::RecordingEntry& entry);
-  bool WriteParts(const v1::RecordedBatch& batch);
 
   std::mutex writing_;
   std::string path_;

@@ -13,13 +13,14 @@ ClockReading TimesOf(const v1::RecordedBatch& batch) {
 
 }  // namespace
 
-ReplaySource::ReplaySource(BatchSource& source, OutputFunction output)
-    : source_(source), output_(std::move(output)), next_(source.Next()) {
+ReplaySource::ReplaySource(BatchSource& source, OutputFunction output, BatchFunction batch)
+    : source_(source), output_(std::move(output)), batch_(std::move(batch)), next_(source.Next()) {
   if (next_) now_ = TimesOf(*next_);
 }
 
 bool ReplaySource::Receive(std::chrono::nanoseconds, std::size_t, std::vector<v1::Input>* inputs) {
   if (!next_) return false;
+  if (batch_) batch_(*next_);
   now_ = TimesOf(*next_);
   earliest_readers_ = next_->earliest_readers();
   granted_ns_.reset();

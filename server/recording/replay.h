@@ -20,9 +20,11 @@ namespace collision::server {
 class ReplaySource final : public Bus, public Clock {
  public:
   using OutputFunction = std::function<void(const v1::Output&)>;
+  using BatchFunction = std::function<void(const v1::RecordedBatch&)>;
 
-  /// `source` outlives this. `output` gets what the daemon publishes; it may be empty.
-  explicit ReplaySource(BatchSource& source, OutputFunction output = {});
+  /// `source` outlives this. `output` gets what the daemon publishes, `batch` each batch before the
+  /// daemon has it; they may be empty.
+  explicit ReplaySource(BatchSource& source, OutputFunction output = {}, BatchFunction batch = {});
 
   /// Ignores `timeout` and `limit`: the boundaries of the recorded batches are inputs too. False
   /// at the end of what can be read; the reader knows whether that is the end of the recording.
@@ -42,6 +44,7 @@ class ReplaySource final : public Bus, public Clock {
  private:
   BatchSource& source_;
   OutputFunction output_;
+  BatchFunction batch_;
   std::optional<v1::RecordedBatch> next_;
   ClockReading now_;
   std::uint32_t earliest_readers_ = 0;      ///< At the last batch handed out.

@@ -10,8 +10,10 @@ namespace collision::client {
 
 /// What an item's bytes are.
 enum class ItemKind : std::uint32_t {
-  kJson = 0,    ///< An object whose member "item" says what it is about.
-  kStates = 1,  ///< States of up to kStatesOfAChunk agents (state_table.h).
+  kJson = 0,           ///< An object whose member "item" says what it is about.
+  kStates = 1,         ///< States of up to kStatesOfAChunk agents (state_table.h).
+  kChangedStates = 2,  ///< In recordings: states of single agents (likewise).
+  kShape = 3,          ///< In recordings: the 32 bytes of a hash, then the shape (shape_bytes.h).
 };
 
 /// Little-endian: u32 kind, u32 length, then so many bytes. A length is a multiple of 8, so that

@@ -72,6 +72,7 @@ bool PageItems::Put(const Scene& scene, const SceneChanges& changes, const Conne
   }
   for (const SceneChanges::Slot& slot : changes.agents) PutAgent(scene, slot);
   for (const std::uint32_t chunk : changes.chunks) {
+    if (states_ == StatesOnBoard::kNone) break;
     board_.Put("states/" + std::to_string(chunk),
                MakeItem(ItemKind::kStates, scene.states().Pack(chunk)));
     changed_ = true;

@@ -10,11 +10,15 @@
 
 namespace collision::client {
 
+/// Whether chunks of states are items of the board. A recording has each state once instead.
+enum class StatesOnBoard { kAll, kNone };
+
 /// Puts what has changed in a scene on a board. One thread; the board is read by others.
 class PageItems {
  public:
   /// `board` outlives it.
-  explicit PageItems(Board* board) : board_(*board) {}
+  explicit PageItems(Board* board, StatesOnBoard states = StatesOnBoard::kAll)
+      : board_(*board), states_(states) {}
   PageItems(const PageItems&) = delete;
   PageItems& operator=(const PageItems&) = delete;
 
@@ -39,6 +43,7 @@ class PageItems {
   void PutConnection(const Connection& connection);
 
   Board& board_;
+  const StatesOnBoard states_;
   std::optional<Connection> connection_;
   std::uint64_t gone_ = 0;  ///< Events that are not kept any more.
   bool changed_ = false;

@@ -70,6 +70,7 @@ StateTable::Agent* StateTable::Find(std::uint64_t simulator, std::uint32_t slot)
   const auto number = NumberOf(simulator, slot);
   if (!number) return nullptr;
   changed_[*number / kStatesOfAChunk] = true;
+  agents_[*number].change = ++last_;
   return &agents_[*number];
 }
 
@@ -105,7 +106,8 @@ void StateTable::Take(const v1::Clearance& clearance) {
 }
 
 void StateTable::Clear(std::uint64_t simulator, std::uint32_t slot) {
-  if (Agent* agent = Find(simulator, slot)) *agent = {.simulator = simulator, .slot = slot};
+  if (Agent* agent = Find(simulator, slot))
+    *agent = {.simulator = simulator, .slot = slot, .change = last_};
 }
 
 std::vector<std::uint32_t> StateTable::TakeChanged() {
@@ -126,6 +128,17 @@ std::string StateTable::Pack(std::uint32_t chunk) const {
   Put(first, &bytes);
   Put(count, &bytes);
   for (std::uint32_t i = first; i < first + count; ++i) PackAgent(agents_[i], &bytes);
+  return bytes;
+}
+
+std::string StateTable::PackAfter(std::uint64_t seen) const {
+  std::string bytes;
+  for (std::uint32_t number = 0; number < agents_.size(); ++number) {
+    if (agents_[number].change <= seen) continue;
+    Put(number, &bytes);
+    Put(std::uint32_t{0}, &bytes);
+    PackAgent(agents_[number], &bytes);
+  }
   return bytes;
 }
 

@@ -48,6 +48,7 @@ class StateTable {
     double position_error = 0, velocity_error = 0;
     bool discontinuity = false, not_clear = false, saturated = false, is_promised = false;
     std::int64_t clear_until_ns = 0;
+    std::uint64_t change = 0;  ///< The number of its newest.
   };
 
   /// By number.
@@ -67,6 +68,13 @@ class StateTable {
   /// Rounded to nearest: for eyes, not for proofs.
   std::string Pack(std::uint32_t chunk) const;
 
+  /// All that have changed after the change `seen`, as bytes: for each u32 number, u32 0, then
+  /// kStateBytes as above. Empty: none has.
+  std::string PackAfter(std::uint64_t seen) const;
+
+  /// The number of the newest change.
+  std::uint64_t newest_change() const { return last_; }
+
  private:
   struct Slot {
     std::uint64_t simulator = 0;
@@ -85,6 +93,7 @@ class StateTable {
   std::unordered_map<Slot, std::uint32_t, SlotHash> numbers_;
   std::vector<Agent> agents_;
   std::vector<bool> changed_;  ///< By chunk.
+  std::uint64_t last_ = 0;     ///< Number of the newest change.
 };
 
 }  // namespace collision::client

@@ -149,6 +149,9 @@ void Runner::StartService() {
                                         world_,
                                         "--domain",
                                         std::to_string(domain_)};
+  if (!options_.record.empty()) {
+    arguments.insert(arguments.end(), {"--record", fs::absolute(options_.record).string()});
+  }
   AddCredentials("service", &arguments);
   service_ = std::make_unique<ChildProcess>("collisiond", arguments, Path("collisiond.log"));
 }

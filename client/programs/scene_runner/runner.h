@@ -27,6 +27,7 @@ struct RunnerOptions {
   bool every_event = false;  ///< Print every event, however many.
   bool unjudged = false;     ///< Leave the checker out: it may take longer than the run.
   std::string json;          ///< File for the report; empty: none.
+  std::string record;        ///< File for the recording of the service; empty: none.
   std::string logs;          ///< Folder for configuration and logs, kept; empty: a temporary one.
 };
 

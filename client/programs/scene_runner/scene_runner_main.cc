@@ -63,6 +63,9 @@ void AddOptions(CLI::App* app, RunnerOptions* options, ViewOptions* view) {
       ->capture_default_str()
       ->check(WholeBetween(0, 65535))
       ->needs("--view");
+  app->add_option("--record", options->record,
+                  "Let the service write its recording to this file, for collisionctl convert, "
+                  "export and plot, and collisiond --replay");
   app->add_option("--logs", options->logs,
                   "Keep configuration, logs and motion logs in this folder");
   app->add_option("--scenes", options->folders.scenes, "Folder of the scenes")

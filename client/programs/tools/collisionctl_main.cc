@@ -30,6 +30,7 @@
 #include "client/programs/tools/collisionctl/view_options.h"
 #include "client/programs/tools/collisionctl/why/agent_lookup.h"
 #include "client/programs/tools/collisionctl/why/why_page.h"
+#include "client/programs/tools/recordings/convert.h"
 #include "client/programs/tools/sphere_tree/command.h"
 #include "client/programs/tools/suggest_bounds/command.h"
 #include "idl/limits.h"
@@ -297,6 +298,9 @@ int Main(int argc, char** argv) {
   DoctorOptions doctor;
   const CLI::App* doctor_command = AddDoctorCommand(&app, &doctor);
   const CLI::App* recordings = AddRecordings(&app, &options.kept);
+  ConvertOptions mcap;
+  const CLI::App* convert = AddConvertCommand(&app, &mcap);
+  const CLI::App* record = AddRecordCommand(&app, &mcap);
   AddExamples(&app);
   AddVersion(&app);
   if (const std::optional<int> code = Parse(&app, argc, argv)) return *code;
@@ -306,6 +310,8 @@ int Main(int argc, char** argv) {
     if (options.json) tree.report = "json";
     return RunSphereTree(tree);
   }
+  if (convert->parsed()) return RunConvert(mcap);
+  if (record->parsed()) return RunRecord(mcap, options.monitor, options.timeout_s);
   if (make_certificates->parsed()) return RunMakeCertificates(certificates, GivenPlace(app));
   if (suggest_bounds->parsed()) {
     const MonitorOptions& place = options.monitor;

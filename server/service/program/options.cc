@@ -133,6 +133,10 @@ void Define(CLI::App* app, Options* options) {
           "with the segment that contains it")
       ->needs(replay);
   AddTime(app, "--until", &options->until_ns, "Replay up to this time (UTC)")->needs(replay);
+  app->add_flag("--transcript", options->transcript,
+                "Print all inputs and all that the service tells, as bytes for programs "
+                "(idl/recording.proto), instead of events; from the begin of the segment on")
+      ->needs(replay);
   for (auto* file : {config, record, replay}) file->type_name("FILE")->check(NotEmpty());
   check->needs(config)->excludes(print);
   for (auto* other : {config, check, print, world, domain, record}) replay->excludes(other);

@@ -23,6 +23,7 @@ struct Options {
   std::string record_file;  ///< Empty: nothing is recorded.
   std::string replay_file;  ///< Or a folder of segments; empty: the daemon serves.
   std::optional<std::int64_t> from_ns, until_ns;  ///< Of the replay: wall time.
+  bool transcript = false;  ///< Of the replay: all messages, in place of events.
 };
 
 struct OptionsResult {

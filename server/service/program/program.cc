@@ -26,6 +26,7 @@
 #include "server/recording/recording.h"
 #include "server/recording/replay.h"
 #include "server/recording/segment_chain.h"
+#include "server/recording/transcript.h"
 #include "server/service/daemon.h"
 #include "server/service/program/calibrate.h"
 #include "server/service/program/kept_in_state_dir.h"
@@ -340,24 +341,44 @@ void PrintEvent(const v1::Output& published, std::int64_t wall_ns) {
   }
 }
 
+/// Gets what the service tells in a step of a replay, and when that step was.
+using TellFunction = std::function<void(std::int64_t wall_ns, const v1::Output& output)>;
+
 /// What is complete is replayed, also of a recording that ends too early.
-int Replay(SegmentChain& chain, const ReplayRange& range) {
+int Replay(SegmentChain& chain, const TellFunction& tell,
+           const ReplaySource::BatchFunction& on_batch) {
   ReplaySource* clock = nullptr;
-  ReplaySource source(chain, [&](const v1::Output& output) {
-    const std::int64_t wall_ns = clock->Read().wall_ns;
-    if (!range.from_ns || wall_ns >= *range.from_ns) PrintEvent(output, wall_ns);
-  });
+  ReplaySource source(
+      chain, [&](const v1::Output& output) { tell(clock->Read().wall_ns, output); }, on_batch);
   clock = &source;
   DaemonParts parts;
   parts.claim = chain.claim();
   Daemon daemon(chain.config(), source, source, std::move(parts));
-  while (daemon.Step()) {
+  while (std::cout && daemon.Step()) {
   }
   std::cout.flush();
   spdlog::info("{}: here the replay of this start of the service ends", chain.path());
-  LogFingerprint(daemon);
+  if (!on_batch) LogFingerprint(daemon);  // a transcript is for programs
   if (!chain.error().empty()) return Fail(kExitFile, chain.error());
   return std::cout ? kExitOk : Fail(kExitFile, "standard output cannot be written");
+}
+
+/// Prints the events from `range` on.
+int PrintEvents(SegmentChain& chain, const ReplayRange& range) {
+  const auto tell = [&range](std::int64_t wall_ns, const v1::Output& output) {
+    if (!range.from_ns || wall_ns >= *range.from_ns) PrintEvent(output, wall_ns);
+  };
+  return Replay(chain, tell, {});
+}
+
+int PrintTranscript(SegmentChain& chain) {
+  Transcript transcript(&std::cout);
+  transcript.Begin(chain.config(), chain.claim());
+  const auto tell = [&transcript](std::int64_t wall_ns, const v1::Output& output) {
+    transcript.Add(wall_ns, output);
+  };
+  const auto add = [&transcript](const v1::RecordedBatch& batch) { transcript.Add(batch); };
+  return Replay(chain, tell, add);
 }
 
 /// The settings of a recording may be damaged, too.
@@ -393,7 +414,9 @@ int Replay(const Options& options) {
           chain->path());
     }
     const std::optional<int> refused = RefusalOfConfig(*chain);
-    note(refused ? *refused : Replay(*chain, range));
+    note(refused              ? *refused
+         : options.transcript ? PrintTranscript(*chain)
+                              : PrintEvents(*chain, range));
   }
   return code;
 }

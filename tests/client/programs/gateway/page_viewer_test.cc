@@ -1,5 +1,5 @@
-// Goal:   a page is sent what is newest when it has shown what it got, and no more than two messages
-//         before that.
+// Goal:   a page that has shown what it got is sent what is newest; two messages at most are on
+//         their way.
 // Method: items and answers by hand.
 #include "client/programs/gateway/page_viewer.h"
 

@@ -1,0 +1,26 @@
+// Where libzstd or zlib was not found when the program was built.
+#include <stdexcept>
+
+#include "client/programs/recordings/mcap_writer.h"
+
+namespace collision::client {
+
+class McapWriter::File {};
+
+McapWriter::McapWriter(const std::string& path) {
+  throw std::runtime_error(path + ": this build writes no MCAP files: it takes libzstd and zlib");
+}
+McapWriter::~McapWriter() = default;
+std::uint16_t McapWriter::Add(const Schema&) { return 0; }
+std::uint16_t McapWriter::Add(const Channel&) { return 0; }
+void McapWriter::Write(std::uint16_t, std::uint64_t, std::uint64_t, const std::string&) {}
+void McapWriter::WriteMetadata(const std::string&, const std::map<std::string, std::string>&) {}
+void McapWriter::EndChunk() {}
+void McapWriter::Close() {}
+const std::string& McapWriter::path() const {
+  static const std::string kNone;
+  return kNone;
+}
+std::uint64_t McapWriter::messages() const { return 0; }
+
+}  // namespace collision::client

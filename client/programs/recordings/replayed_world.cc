@@ -1,0 +1,117 @@
+#include "client/programs/recordings/replayed_world.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "client/library/network/current_service.h"
+#include "idl/recording/utc.h"
+
+namespace collision::client {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kDaemon[] = "collisiond";
+
+/// Beside this program, or where the shell would find it.
+std::string DaemonPath() {
+  std::error_code failed;
+  std::vector<fs::path> folders = {fs::read_symlink("/proc/self/exe", failed).parent_path()};
+  const char* path = std::getenv("PATH");
+  std::string left = path == nullptr ? "" : path;
+  while (!left.empty()) {
+    const std::size_t end = std::min(left.find(':'), left.size());
+    folders.emplace_back(left.substr(0, end));
+    left.erase(0, end + 1);
+  }
+  for (const fs::path& folder : folders) {
+    const std::string program = (folder / kDaemon).string();
+    if (!folder.empty() && access(program.c_str(), X_OK) == 0) return program;
+  }
+  throw std::runtime_error(
+      "collisiond is not beside this program, nor on the PATH: a recording holds what the service "
+      "took in, and only the service tells what follows from it");
+}
+
+/// As one word of the shell.
+std::string Quoted(const std::string& word) {
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string CommandOf(const ReplayRequest& request) {
+  std::string command = "exec " + Quoted(DaemonPath()) + " --log-level error --transcript" +
+                        " --replay " + Quoted(request.file);
+  if (request.from_ns) command += " --from " + Quoted(wire::UtcText(*request.from_ns));
+  if (request.until_ns) command += " --until " + Quoted(wire::UtcText(*request.until_ns));
+  return command;
+}
+
+}  // namespace
+
+void ReplayedWorld::CloseProcess::operator()(std::FILE* process) const { pclose(process); }
+
+ReplayedWorld::ReplayedWorld(const ReplayRequest& request) {
+  if (access(request.file.c_str(), R_OK) != 0) {
+    throw std::runtime_error(request.file +
+                             ": cannot be read: " + std::generic_category().message(errno));
+  }
+  process_.reset(popen(CommandOf(request).c_str(), "re"));
+  if (!process_) {
+    throw std::runtime_error("collisiond cannot be started: " +
+                             std::generic_category().message(errno));
+  }
+  entries_.emplace("/dev/fd/" + std::to_string(fileno(process_.get())));
+  is_over_ = !NextEntry();
+}
+
+ReplayedWorld::~ReplayedWorld() = default;
+
+bool ReplayedWorld::NextEntry() { return entries_->Next(&entry_); }
+
+void ReplayedWorld::Receive(std::chrono::nanoseconds, Arrivals* arrivals) {
+  bool has_step = false;
+  while (!is_over_) {
+    if (entry_.has_batch()) {
+      if (has_step) return;
+      v1::RecordedBatch& batch = *entry_.mutable_batch();
+      now_ = std::chrono::steady_clock::time_point(before_ +
+                                                   std::chrono::nanoseconds(batch.monotonic_ns()));
+      wall_ns_ = batch.wall_ns();
+      for (v1::Input& input : *batch.mutable_inputs()) arrivals->inputs.push_back(std::move(input));
+      has_step = !batch.continued();
+    } else if (entry_.has_header()) {
+      BeginRun(arrivals);
+    } else if (entry_.has_told()) {
+      service_ = StampOf(entry_.told().output()).service_id();
+      arrivals->outputs.push_back(std::move(*entry_.mutable_told()->mutable_output()));
+    }
+    is_over_ = !NextEntry();
+  }
+}
+
+/// A start of the service: that of before is heard no more.
+void ReplayedWorld::BeginRun(Arrivals* arrivals) {
+  before_ = now_.time_since_epoch();
+  if (service_ == 0) return;
+  v1::ServiceHeard& former = *arrivals->inputs.emplace_back().mutable_service_heard();
+  former.set_service_id(service_);
+  former.set_ended(true);
+}
+
+int ReplayedWorld::Finish() {
+  entries_.reset();
+  is_over_ = true;
+  const int status = pclose(process_.release());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : EXIT_FAILURE;
+}
+
+}  // namespace collision::client

@@ -1,0 +1,202 @@
+#include "client/programs/recordings/world_recorder.h"
+
+#include <google/protobuf/descriptor.pb.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "client/library/identity/library_version.h"
+#include "client/programs/scene/item.h"
+#include "idl/limits.h"
+
+namespace collision::client {
+namespace {
+
+constexpr std::int64_t kChunkPeriodNs = 1'000'000'000;  ///< What a crash loses, by the wall clock.
+
+constexpr std::int64_t kBackNs = 1'000'000'000;  ///< Time has begun anew.
+
+/// A time of the file: there is none before 0.
+std::uint64_t FileTime(std::int64_t time_ns) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(time_ns, 0));
+}
+
+/// The file and all that it imports.
+void AddWithImports(const google::protobuf::FileDescriptor& file, std::set<std::string>* added,
+                    google::protobuf::FileDescriptorSet* set) {
+  if (!added->insert(std::string(file.name())).second) return;
+  for (int i = 0; i < file.dependency_count(); ++i) {
+    AddWithImports(*file.dependency(i), added, set);
+  }
+  file.CopyTo(set->add_file());
+}
+
+/// As the field of the oneof is called, but where topics are called otherwise.
+std::string TopicOf(const google::protobuf::FieldDescriptor& field,
+                    const google::protobuf::Message& message) {
+  std::string name(field.name());
+  if (name == "collision_event") {
+    const auto& event = static_cast<const v1::CollisionEvent&>(message);
+    name = event.contacts_sequence() > 0 ? "contact" : "forecast";
+  }
+  if (name == "shape_part") name = "shape";
+  if (name == "event_heard") name = "event_of_another_service";
+  return "collision/v1/" + name;
+}
+
+std::string NumberedPath(const std::string& path, int number) {
+  if (number == 1) return path;
+  const std::filesystem::path whole(path);
+  const std::string name =
+      whole.stem().string() + "." + std::to_string(number) + whole.extension().string();
+  return (whole.parent_path() / name).string();
+}
+
+bool HasAgents(const Arrivals& arrivals) {
+  return std::ranges::any_of(arrivals.inputs,
+                             [](const v1::Input& input) { return input.has_agent_description(); });
+}
+
+std::optional<std::int64_t> NowOf(const v1::Output& output) {
+  if (output.has_clearance()) return output.clearance().now_ns();
+  if (output.has_collision_event()) return output.collision_event().now_ns();
+  if (output.has_service_status()) return output.service_status().now_ns();
+  return std::nullopt;
+}
+
+}  // namespace
+
+/// Hands on what a receiver hears, and lets the recorder hear it first.
+class WorldRecorder::Tee final : public Receiver {
+ public:
+  Tee(std::unique_ptr<Receiver> inner, WorldRecorder* recorder)
+      : inner_(std::move(inner)), recorder_(*recorder) {}
+
+  void Receive(std::chrono::nanoseconds timeout, Arrivals* arrivals) override {
+    Arrivals more;
+    inner_->Receive(timeout, &more);
+    recorder_.Hear(more);
+    std::ranges::move(more.outputs, std::back_inserter(arrivals->outputs));
+    std::ranges::move(more.inputs, std::back_inserter(arrivals->inputs));
+  }
+  bool service_alive() const override { return inner_->service_alive(); }
+  std::optional<std::string> TakeCredentialsWarning() override {
+    return inner_->TakeCredentialsWarning();
+  }
+  std::chrono::steady_clock::time_point Now() const override { return inner_->Now(); }
+
+ private:
+  const std::unique_ptr<Receiver> inner_;
+  WorldRecorder& recorder_;
+};
+
+WorldRecorder::WorldRecorder(std::unique_ptr<Receiver> receiver, WorldRecorderOptions options)
+    : options_(std::move(options)) {
+  Begin();
+  monitor_ = std::make_unique<MessageMonitor>(std::make_unique<Tee>(std::move(receiver), this),
+                                              scene_.Callbacks());
+}
+
+WorldRecorder::~WorldRecorder() = default;
+
+std::size_t WorldRecorder::Poll(std::chrono::nanoseconds timeout) {
+  const std::size_t messages = monitor_->Poll(timeout);
+  if (messages == 0) return 0;
+  if (now_ns_ >= page_due_ns_) WritePage();
+  if (options_.wall_ns() >= chunk_due_ns_) {
+    chunk_due_ns_ = options_.wall_ns() + kChunkPeriodNs;
+    file_->EndChunk();
+  }
+  return messages;
+}
+
+void WorldRecorder::Close() {
+  WritePage();
+  files_[file_->path()] = file_->messages();
+  file_->Close();
+}
+
+void WorldRecorder::Begin() {
+  file_ = std::make_unique<McapWriter>(NumberedPath(options_.path, ++number_));
+  file_->WriteMetadata("collision", {{"version", LibraryVersion()},
+                                     {"wire_revision", std::to_string(wire::kWireRevision)}});
+  channels_.clear();
+  schemas_.clear();
+  page_ = file_->Add(
+      McapWriter::Channel{.schema = 0, .topic = "/page", .message_encoding = "collision.page.v1"});
+  seen_ = seen_states_ = 0;
+  newest_ns_ = std::numeric_limits<std::int64_t>::min();
+  has_agents_ = false;
+  page_due_ns_ = chunk_due_ns_ = std::numeric_limits<std::int64_t>::min();
+}
+
+void WorldRecorder::Hear(const Arrivals& arrivals) {
+  for (const v1::Output& output : arrivals.outputs) {
+    const auto now_ns = NowOf(output);
+    if (now_ns && *now_ns >= -wire::kInstantMax) now_ns_ = *now_ns;
+  }
+  // What a service says before the first agent of another epoch belongs to the former.
+  if (HasAgents(arrivals)) {
+    if (has_agents_ && now_ns_ < newest_ns_ - kBackNs) {
+      Close();
+      Begin();
+    }
+    has_agents_ = true;
+  }
+  newest_ns_ = std::max(newest_ns_, now_ns_);
+  for (const v1::Input& input : arrivals.inputs) WriteMessage(input);
+  for (const v1::Output& output : arrivals.outputs) WriteMessage(output);
+}
+
+/// `holder`: an input or an output, of which the message is written.
+void WorldRecorder::WriteMessage(const google::protobuf::Message& holder) {
+  const google::protobuf::Reflection& reflection = *holder.GetReflection();
+  const google::protobuf::FieldDescriptor* field =
+      reflection.GetOneofFieldDescriptor(holder, holder.GetDescriptor()->oneof_decl(0));
+  if (field == nullptr) return;
+  const google::protobuf::Message& message = reflection.GetMessage(holder, field);
+  file_->Write(ChannelOf(TopicOf(*field, message), message), FileTime(now_ns_),
+               FileTime(options_.wall_ns()), message.SerializeAsString());
+}
+
+std::uint16_t WorldRecorder::ChannelOf(const std::string& topic,
+                                       const google::protobuf::Message& message) {
+  const auto known = channels_.find(topic);
+  if (known != channels_.end()) return known->second;
+  const google::protobuf::Descriptor& type = *message.GetDescriptor();
+  const std::string name(type.full_name());
+  if (schemas_.count(name) == 0) {
+    google::protobuf::FileDescriptorSet set;
+    std::set<std::string> added;
+    AddWithImports(*type.file(), &added, &set);
+    schemas_[name] = file_->Add(
+        McapWriter::Schema{.name = name, .encoding = "protobuf", .data = set.SerializeAsString()});
+  }
+  return channels_[topic] = file_->Add(McapWriter::Channel{
+             .schema = schemas_[name], .topic = topic, .message_encoding = "protobuf"});
+}
+
+void WorldRecorder::WritePage() {
+  page_due_ns_ = now_ns_ + static_cast<std::int64_t>(1e9 / options_.rate_hz);
+  const SceneChanges changes = scene_.TakeChanges();
+  items_.Put(scene_, changes,
+             {.service_alive = monitor_->service_alive(),
+              .contacts_missed = monitor_->contacts_missed(),
+              .unreadable = monitor_->unreadable()});
+  std::string message;
+  for (const std::string& hash : changes.shapes) {
+    message += *MakeItem(ItemKind::kShape, hash + *shapes_.Find(hash));
+  }
+  std::string states = scene_.states().PackAfter(seen_states_);
+  seen_states_ = scene_.states().newest_change();
+  const Board::News news = board_.After(seen_, std::numeric_limits<std::size_t>::max());
+  seen_ = news.seen;
+  for (const Board::Item& item : news.items) message += *item.payload;
+  if (!states.empty()) message += *MakeItem(ItemKind::kChangedStates, std::move(states));
+  if (message.empty()) return;
+  file_->Write(page_, FileTime(now_ns_), FileTime(options_.wall_ns()), message);
+}
+
+}  // namespace collision::client

@@ -1,0 +1,165 @@
+#include "client/programs/tools/recordings/convert.h"
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "client/library/network/dds_transport.h"
+#include "client/library/notices/notices.h"
+#include "client/programs/recordings/world_recorder.h"
+#include "client/programs/shared/command_line.h"
+#include "client/programs/shared/exit_code.h"
+#include "client/programs/shared/stop_signal.h"
+#include "client/programs/tools/collisionctl/agents_watcher.h"
+#include "client/programs/tools/recordings/replay_options.h"
+
+namespace collision::client {
+namespace {
+
+constexpr std::chrono::milliseconds kWaitMax{100};  ///< Longest time to notice the end.
+constexpr double kRateMin = 0.1, kRateMax = 100;
+constexpr double kSecondsMax = 1e7;
+
+constexpr const char* kFooter = R"(
+An MCAP file has every message on a channel with the name of its topic, as protobuf with its
+schema, and what the gateway's page needs to show it (drop the file onto the page). Its times are
+the world's; where these begin anew, FILE.2.mcap begins. Foxglove, Lichtblick, PlotJuggler and
+rerun read it.)";
+
+constexpr const char* kConvertFooter = R"(
+Examples:
+  collisiond --record run.rec                          record a service
+  collisionctl convert run.rec run.mcap
+  collisionctl convert /var/lib/collisiond/lab night.mcap --from 2026-11-29T03:00
+)";
+
+constexpr const char* kRecordFooter = R"(
+Examples:
+  collisionctl record now.mcap --seconds 60
+  collisionctl --world lab record lab.mcap             until Ctrl-C
+)";
+
+std::chrono::nanoseconds Nanoseconds(double seconds) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(seconds));
+}
+
+void AddRate(CLI::App* command, ConvertOptions* options) {
+  command
+      ->add_option("--rate", options->rate_hz,
+                   "How often the page's channel is written, a second of the world, 0.1 to 100")
+      ->check(Between(kRateMin, kRateMax))
+      ->capture_default_str();
+}
+
+int Fail(const std::string& what, int code) {
+  std::cerr << "collisionctl: " << what << '\n';
+  return code;
+}
+
+void PrintFiles(const WorldRecorder& recorder) {
+  for (const auto& [path, messages] : recorder.files()) {
+    std::cout << path << ": " << messages << " messages\n";
+  }
+}
+
+}  // namespace
+
+CLI::App* AddConvertCommand(CLI::App* app, ConvertOptions* options) {
+  CLI::App* command =
+      app->add_subcommand("convert", "A recording as an MCAP file, for Foxglove and others");
+  AddReplayOptions(command, &options->input, &options->from, &options->until);
+  command->add_option("OUTPUT", options->output, "MCAP file; a former one is replaced")->required();
+  AddRate(command, options);
+  command->footer(std::string(kConvertFooter) + kFooter);
+  return command;
+}
+
+CLI::App* AddRecordCommand(CLI::App* app, ConvertOptions* options) {
+  CLI::App* command =
+      app->add_subcommand("record", "A running world to an MCAP file, until Ctrl-C");
+  command->add_option("OUTPUT", options->output, "MCAP file; a former one is replaced")->required();
+  command->add_option("--seconds", options->seconds, "End after so many seconds, up to 1e7")
+      ->check(Finite(kSecondsMax, false));
+  command->add_flag("!--no-watch", options->watch,
+                    "Do not ask simulators for fresh states at --rate meanwhile");
+  AddRate(command, options);
+  command->footer(std::string(kRecordFooter) + kFooter);
+  return command;
+}
+
+int RunConvert(const ConvertOptions& options) {
+  std::unique_ptr<ReplayedWorld> replayed;
+  try {
+    replayed =
+        std::make_unique<ReplayedWorld>(ReplayOf(options.input, options.from, options.until));
+  } catch (const BadInput& error) {
+    return Fail(error.what(), kExitUsage);
+  } catch (const std::runtime_error& error) {
+    return Fail(error.what(), kExitNoInput);
+  }
+  try {
+    ReplayedWorld& world = *replayed;
+    WorldRecorder recorder(std::move(replayed), {.path = options.output,
+                                                 .rate_hz = options.rate_hz,
+                                                 .wall_ns = [&world] { return world.wall_ns(); }});
+    Progress progress("convert");
+    CatchStopSignals();
+    while (!world.is_over() && !StopRequested()) {
+      recorder.Poll({});
+      progress.Tell(recorder.now_ns());
+    }
+    const bool is_stopped = !world.is_over();
+    recorder.Close();
+    PrintFiles(recorder);
+    if (is_stopped) return Fail("stopped: the rest of the recording is missing", kExitRefused);
+    return world.Finish();
+  } catch (const std::runtime_error& error) {
+    return Fail(error.what(), kExitOutputFailed);
+  }
+}
+
+int RunRecord(const ConvertOptions& options, const MonitorOptions& place, double timeout_s) {
+  using Clock = std::chrono::steady_clock;
+  try {
+    MonitorOptions all = place;
+    all.simulators = true;
+    std::cerr << "collisionctl: " << PlaceText(place.world, place.domain) << '\n';
+    WorldRecorder recorder(ConnectMonitor(all),
+                           {.path = options.output, .rate_hz = options.rate_hz, .wall_ns = [] {
+                              return std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                         std::chrono::system_clock::now().time_since_epoch())
+                                  .count();
+                            }});
+    CatchStopSignals();
+    std::unique_ptr<AgentsWatcher> watcher;
+    if (options.watch) {
+      watcher = std::make_unique<AgentsWatcher>(
+          ConnectWatcher({place.world, place.domain, place.credentials}),
+          Nanoseconds(1 / options.rate_hz));
+    }
+    const Clock::time_point begin = Clock::now();
+    const auto is_due = [begin](double seconds) {
+      return Clock::now() - begin >= Nanoseconds(seconds);
+    };
+    Progress progress("record");
+    while (!StopRequested() && (options.seconds == 0 || !is_due(options.seconds))) {
+      if (watcher) watcher->Repeat(Clock::now());
+      recorder.Poll(kWaitMax);
+      progress.Tell(recorder.now_ns());
+      if (!recorder.view().status() && is_due(timeout_s)) break;
+    }
+    const bool has_service = recorder.view().status().has_value();
+    recorder.Close();
+    PrintFiles(recorder);
+    if (has_service) return kExitOk;
+    return Fail("no service was heard: is the world right? see collisionctl doctor",
+                kExitUnavailable);
+  } catch (const std::runtime_error& error) {
+    return Fail(error.what(), kExitUnavailable);
+  }
+}
+
+}  // namespace collision::client

@@ -1,0 +1,36 @@
+// Which part of a recording a command takes.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <string>
+
+#include "client/programs/recordings/replayed_world.h"
+
+namespace collision::client {
+
+/// FILE, --from and --until.
+void AddReplayOptions(CLI::App* command, std::string* file, std::string* from, std::string* until);
+
+/// Throws BadInput for what is no time.
+ReplayRequest ReplayOf(const std::string& file, const std::string& from, const std::string& until);
+
+/// One line on standard error, at most once a second, if that is a terminal: how far it is.
+class Progress {
+ public:
+  explicit Progress(std::string what);
+  /// Ends the line.
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void Tell(std::int64_t world_ns);
+
+ private:
+  const std::string what_;
+  const bool is_shown_;
+  bool has_told_ = false;
+  std::chrono::steady_clock::time_point due_{};
+};
+
+}  // namespace collision::client
