@@ -6,7 +6,7 @@
 
 #include "server/config/config.h"
 #include "server/recording/recording.h"
-#include "server/recording/replay.h"
+#include "server/recording/replay/replay.h"
 #include "server/service/daemon.h"
 #include "tests/fuzz/answers.h"
 #include "tests/fuzz/scratch_file.h"

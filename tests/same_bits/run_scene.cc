@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "server/recording/replay.h"
+#include "server/recording/replay/replay.h"
 #include "server/shapes/threaded_shape_builder.h"
 
 namespace collision::server {

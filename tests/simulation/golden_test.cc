@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "server/recording/replay.h"
+#include "server/recording/replay/replay.h"
 #include "tests/simulation/contact_checker.h"
 #include "tests/simulation/scenario.h"
 #include "tests/support/temporary_path.h"

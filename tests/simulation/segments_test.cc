@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "idl/shape_bytes.h"
-#include "server/recording/replay.h"
-#include "server/recording/segment_chain.h"
+#include "server/recording/replay/replay.h"
+#include "server/recording/replay/segment_chain.h"
 #include "tests/simulation/scenario.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_path.h"

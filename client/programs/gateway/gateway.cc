@@ -13,6 +13,7 @@
 #include "client/library/identity/library_version.h"
 #include "client/library/network/dds_transport.h"
 #include "client/library/notices/notices.h"
+#include "client/programs/gateway/conversion.h"
 #include "client/programs/gateway/metrics/world_metrics.h"
 #include "client/programs/gateway/page_viewer.h"
 #include "client/programs/gateway/site.h"
@@ -156,6 +157,9 @@ class Gateway {
 
   WebHandlers Handlers() {
     return {.answer = [this](const WebRequest& request) { return site_.Answer(request); },
+            .upload_path = "/convert",
+            .upload = [this](WebRequest request,
+                             WebReply reply) { conversion_.Start(request.body, std::move(reply)); },
             .protocols = {kPageProtocol},
             .connect = [this](const std::string&) -> std::unique_ptr<WebViewer> {
               return std::make_unique<CountedViewer>(std::make_unique<PageViewer>(&board_),
@@ -232,7 +236,8 @@ class Gateway {
   bool was_fresh_ = false;  ///< In the metrics.
   Time status_heard_{}, metrics_due_{}, watch_due_{};
   std::optional<Time> looked_;  ///< When a viewer was there last.
-  WebServer server_;            // last: what it asks is there
+  Conversion conversion_;
+  WebServer server_;  // last: what it asks is there
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "server/recording/replay.h"
+#include "server/recording/replay/replay.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "server/config/config.h"
-#include "server/recording/segment_chain.h"
+#include "server/recording/replay/segment_chain.h"
 #include "server/recording/segments.h"
 #include "tests/server/messages.h"
 #include "tests/support/temporary_path.h"

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "server/recording/recording.h"
-#include "server/recording/segment_chain.h"
+#include "server/recording/replay/segment_chain.h"
 #include "tests/server/recording/segments_support.h"
 #include "tests/support/random.h"
 

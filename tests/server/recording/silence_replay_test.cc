@@ -7,7 +7,7 @@
 
 #include <cstdio>
 
-#include "server/recording/replay.h"
+#include "server/recording/replay/replay.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
 

@@ -12,7 +12,7 @@
 #include <new>
 #include <set>
 
-#include "server/recording/replay.h"
+#include "server/recording/replay/replay.h"
 #include "tests/server/captured_log.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "server/recording/recording.h"
-#include "server/recording/replay.h"
+#include "server/recording/replay/replay.h"
 #include "tests/server/scripted_bus.h"
 #include "tests/server/shapes/shapes.h"
 

@@ -1,6 +1,7 @@
 // The page of collision-gateway: what is where, and which keys do what.
 import { LiveSource } from "./source/live.js";
 import { World } from "./model/world.js";
+import { Opening } from "./view/opening.js";
 import { drawLegend } from "./view/legend.js";
 import { PAGES, Pages } from "./view/pages.js";
 import { Scene3D } from "./view/scene3d.js";
@@ -13,7 +14,7 @@ const TABLES_REST = 20;  // Of the time that they take, so that the view moves.
 const REST_MAX_MS = 100; // After a frame, so that messages get their turn.
 
 const world = new World();
-const state = { paused: null, link: "", framed: false, hovered: null };
+const state = { paused: null, link: "", told: "", framed: false, hovered: null };
 const scene = new Scene3D(world, $("scene"), (agent) => choose({ agent }));
 const timeline = new Timeline(world, $("timeline"), $("tip"), (one) => choose({ event: one }),
   (one, t) => {
@@ -54,20 +55,31 @@ function followLink() {
 let linked = false;
 addEventListener("hashchange", () => (linked = followLink()));
 
+/** At `t`; null: it goes on, what is live from now, a recording from where it was. */
 function pause(t) {
+  const { player } = world;
+  if (player) {
+    const from = state.paused ?? player.time();
+    if (t === null) player.play(from >= player.end ? player.begin : from);
+    else t = Math.max(player.begin, Math.min(player.end, t));
+  }
   state.paused = t;
   $("pause").setAttribute("aria-pressed", t !== null);
   $("pause").textContent = t === null ? "Pause" : "Go on";
-  if (t === null) $("scrub").value = 0;
+  if (t === null && !player) $("scrub").value = 0;
   scene.wanted = true;
 }
 
+/** The newest time that there is to show. */
+const newest = () => world.player?.end ?? world.time();
+
 function tellVerdict() {
-  const text = state.link || (world.connection && !world.connection.service_alive
+  const text = state.told || state.link || (world.connection && !world.connection.service_alive
     ? "no service of this world is heard" : world.connection?.unreadable ??
       world.status?.verdict?.[0] ?? "waiting for the service …");
   if ($("verdict").textContent !== text) $("verdict").textContent = text;
-  $("verdict").classList.toggle("trouble", !text.startsWith("WELL") && !text.startsWith("waiting"));
+  $("verdict").classList.toggle("trouble", !state.told &&
+    !text.startsWith("WELL") && !text.startsWith("waiting"));
 }
 
 function toggle(id, value) {
@@ -82,7 +94,7 @@ const actions = {
   labels: () => (scene.shows.labels = toggle("labels", !scene.shows.labels)),
   trails: () => (scene.shows.trails = toggle("trails", !scene.shows.trails)),
   pause: () => pause(state.paused === null ? world.time() : null),
-  live: () => pause(null),
+  live: () => pause(world.player ? world.player.end : null),
 };
 for (const [id, act] of Object.entries(actions)) $(id).addEventListener("click", act);
 const KEYS = { f: "frame", g: "follow", l: "labels", t: "trails", " ": "pause", End: "live" };
@@ -101,8 +113,8 @@ addEventListener("keydown", (key) => {
   actions[KEYS[key.key]]();
 });
 $("scrub").addEventListener("input", () => {
-  const back = Number($("scrub").value), now = world.time();
-  if (now !== null) pause(back === 0 ? null : now + back);
+  const back = Number($("scrub").value), now = newest();
+  if (now !== null) pause(back === 0 && !world.player ? null : now + back);
 });
 $("ahead").addEventListener("input", () => {
   scene.aheadS = Number($("ahead").value);
@@ -133,19 +145,23 @@ world.addEventListener("change", () => {
 let tablesDue = 0;
 function draw(began) {
   const t = shownTime();
-  const moves = state.paused === null && state.hovered === null && world.now?.rate > 0;
+  if (world.player && state.paused === null && !world.player.isRunning) pause(world.player.end);
+  const moves = state.paused === null && state.hovered === null &&
+    (world.player || world.now?.rate > 0);
   if (scene.wanted || moves) {
-    if (state.paused !== null || state.hovered !== null) world.findLevels(t);
+    if (state.paused !== null || state.hovered !== null || world.player) world.findLevels(t);
     scene.draw(t);
     timeline.draw(state.paused ?? world.time());
   }
-  const now = world.time();
+  const now = newest();
+  if (world.player) $("scrub").value = t - now;
   $("clock").textContent = worldTime(t);
-  $("scrub-text").textContent = state.paused === null ? "live" : seconds(state.paused - now);
+  $("scrub-text").textContent = world.player ? seconds(t - world.player.begin)
+    : state.paused === null ? "live" : seconds(state.paused - now);
   tellVerdict();
   if (began >= tablesDue) {
     const from = performance.now();
-    pages.draw(state.paused ?? now);
+    pages.draw(state.paused ?? world.time());
     tablesDue = began + TABLES_MS + TABLES_REST * (performance.now() - from);
   }
   const took = performance.now() - began;
@@ -153,8 +169,25 @@ function draw(began) {
 }
 
 drawLegend($("legend"));
-const source = new LiveSource(world, (text) => (state.link = text));
+let source = null;
+const opening = new Opening(world, $("open"), $("file"), {
+  tell: (text) => (state.told = text),
+  begin: () => source?.close(),
+  opened: (name) => {
+    const { player } = world;
+    state.told = `${name}: ${seconds(player.end - player.begin)} of its world`;
+    $("scrub").min = player.begin - player.end;
+    $("scrub").setAttribute("aria-label", "Seconds before the end");
+    $("open").textContent = "Back to what is live";
+    $("live").textContent = "End";
+    pause(player.begin);
+    if (location.hash) linked = followLink();
+  },
+});
+const own = $("recorded");
+if (own) opening.openOwn(own);
+else source = new LiveSource(world, (text) => (state.link = text));
 requestAnimationFrame(draw);
 
 // For tests and the curious: what is drawn, in numbers.
-window.collision = { world, scene, timeline, source, shownTime, choose, pause };
+window.collision = { world, scene, timeline, source, opening, shownTime, choose, pause };

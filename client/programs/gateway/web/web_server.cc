@@ -27,6 +27,7 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::chrono::seconds kPatience{30};           ///< With a connection that says nothing.
+constexpr std::chrono::minutes kUploadPatience{10};     ///< With one that sends a file.
 constexpr std::chrono::milliseconds kAcceptAgain{100};  ///< After too many open files.
 constexpr std::size_t kPathMax = 2048;
 constexpr std::size_t kViewerMessageMax = 1 << 16;
@@ -146,29 +147,32 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   HttpSession(tcp::socket&& socket, Common* common)
       : stream_(std::move(socket)), common_(common), place_(std::make_unique<Place>(common)) {}
 
+  /// The head first: who may not ask need not send the rest.
   void Read() {
     parser_.emplace();
     query_.clear();
-    parser_->body_limit(common_->options.request_bytes_max);
+    parser_->body_limit(common_->options.upload_bytes_max);
     stream_.expires_after(kPatience);
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](error_code failed, std::size_t) {
-                       if (failed == http::error::body_limit) return self->Refuse(413, "too large");
-                       if (!failed) return self->Handle();
-                       self->stream_.close();
-                     });
+    http::async_read_header(stream_, buffer_, *parser_,
+                            [self = shared_from_this()](error_code failed, std::size_t) {
+                              if (failed == http::error::body_limit)
+                                return self->Refuse(413, "too large");
+                              if (!failed) return self->TakeHead();
+                              self->stream_.close();
+                            });
   }
 
  private:
   using Request = http::request<http::string_body>;
 
-  void Handle() {
+  void TakeHead() {
     const Request& request = parser_->get();
     const std::string target = TextOf(request.target());
     const std::size_t mark = std::min(target.find('?'), target.size());
     const auto path = DecodePercent(target.substr(0, mark));
     query_ = mark < target.size() ? target.substr(mark + 1) : "";
     if (!path || path->size() > kPathMax) return Refuse(400, "that path cannot be");
+    path_ = *path;
     const RequestHead head{.host = TextOf(request[http::field::host]),
                            .origin = TextOf(request[http::field::origin]),
                            .authorization = TextOf(request[http::field::authorization]),
@@ -178,6 +182,33 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       return Refuse(refusal->status, refusal->why);
     }
     if (websocket::is_upgrade(request)) return BecomeViewer();
+    const bool is_upload = request.method() == http::verb::post && !path_.empty() &&
+                           path_ == common_->handlers.upload_path;
+    const std::size_t most =
+        is_upload ? common_->options.upload_bytes_max : common_->options.request_bytes_max;
+    if (parser_->content_length().value_or(0) > most) return Refuse(413, "too large");
+    parser_->body_limit(most);
+    stream_.expires_after(is_upload ? kUploadPatience : kPatience);
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this(), is_upload](error_code failed, std::size_t) {
+                       if (failed == http::error::body_limit) return self->Refuse(413, "too large");
+                       if (failed) return self->stream_.close();
+                       is_upload ? self->HandleUpload() : self->Handle();
+                     });
+  }
+
+  void HandleUpload() {
+    Request request = parser_->release();
+    common_->handlers.upload(
+        {.method = "POST", .path = path_, .query = query_, .body = std::move(request.body())},
+        [self = shared_from_this()](WebResponse answer) {
+          asio::post(self->stream_.get_executor(),
+                     [self, answer = std::move(answer)] { self->Send(answer); });
+        });
+  }
+
+  void Handle() {
+    const Request& request = parser_->get();
     const http::verb verb = request.method();
     if (verb != http::verb::get && verb != http::verb::head && verb != http::verb::post) {
       return Refuse(405, "GET, HEAD and POST are what there is");
@@ -185,7 +216,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     const bool takes_gzip =
         request[http::field::accept_encoding].find("gzip") != beast::string_view::npos;
     Send(common_->handlers.answer({.method = TextOf(request.method_string()),
-                                   .path = *path,
+                                   .path = path_,
                                    .query = query_,
                                    .takes_gzip = takes_gzip,
                                    .body = request.body()}));
@@ -251,7 +282,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   std::unique_ptr<Place> place_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
-  std::string query_;
+  std::string path_, query_;  ///< Of the request.
   WebResponse answer_;
   http::response<http::buffer_body> response_;
   std::optional<http::response_serializer<http::buffer_body>> serializer_;

@@ -22,9 +22,10 @@ struct WebOptions {
   std::vector<std::string> hosts = {};
   /// Pages from elsewhere that may open WebSockets: "https://app.foxglove.dev".
   std::vector<std::string> origins = {};
-  std::size_t connections_max = 1024;       ///< Further ones are closed at once.
-  std::size_t request_bytes_max = 1 << 16;  ///< Of a body; more is answered with 413.
-  int send_buffer_bytes = 128 << 10;        ///< Of a socket: what lies in it gets old.
+  std::size_t connections_max = 1024;        ///< Further ones are closed at once.
+  std::size_t request_bytes_max = 1 << 16;   ///< Of a body; more is answered with 413.
+  std::size_t upload_bytes_max = 256 << 20;  ///< Likewise, to WebHandlers::upload_path.
+  int send_buffer_bytes = 128 << 10;         ///< Of a socket: what lies in it gets old.
 };
 
 /// Serves from its construction on, on a thread of its own; what it asks of the program is called

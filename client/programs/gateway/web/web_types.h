@@ -53,9 +53,15 @@ class WebViewer {
   virtual std::string Hear(const std::string& message, bool is_text) = 0;
 };
 
+/// A request whose answer takes long: `reply` may be called later, once, and from any thread.
+using WebReply = std::function<void(WebResponse)>;
+
 /// What the program does with what comes; each is called on the server's thread alone.
 struct WebHandlers {
   std::function<WebResponse(const WebRequest& request)> answer;
+  /// POST to this path may bring WebOptions::upload_bytes_max; empty: to none.
+  std::string upload_path = {};
+  std::function<void(WebRequest request, WebReply reply)> upload = {};
   /// Names of sub-protocols, the preferred one first.
   std::vector<std::string> protocols;
   /// A WebSocket of one of these.

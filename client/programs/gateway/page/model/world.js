@@ -25,6 +25,7 @@ export const eventLink = (event) =>
 export class World extends EventTarget {
   constructor() {
     super();
+    this.departedMax = DEPARTED_MAX;
     this.reset();
   }
 
@@ -37,7 +38,9 @@ export class World extends EventTarget {
     this.waiting = new Map(); // states of agents that are not described yet, by number
     this.events = new Map();  // by key
     this.standing = new Set(); // of these, what may be, is, or was a contact
-    this.shapes = new Set();  // hashes that can be fetched
+    this.shapes = new Set();  // hashes that can be had
+    this.bytes = new Map();   // of shapes that need not be fetched, by hash
+    this.player = null;       // of a recording: it says what time it is
     this.status = null;
     this.skew = 0;
     this.earliest = null;
@@ -88,7 +91,7 @@ export class World extends EventTarget {
     agent.left = this.now?.t ?? -Infinity;
     agent.level = 0;
     this.departed.add(agent);
-    if (this.departed.size > DEPARTED_MAX) this.forget(this.departed.values().next().value);
+    if (this.departed.size > this.departedMax) this.forget(this.departed.values().next().value);
   }
 
   forget(agent) {
@@ -136,6 +139,18 @@ export class World extends EventTarget {
   forgetEvent(one) {
     this.events.delete(one.key);
     this.standing.delete(one);
+  }
+
+  takeShape(hash, bytes) {
+    this.shapes.add(hash);
+    this.bytes.set(hash, bytes);
+  }
+
+  async shapeBytes(hash) {
+    const known = this.bytes.get(hash);
+    if (known) return known;
+    const answer = await fetch(`shapes/${hash}`);
+    return answer.ok ? answer.arrayBuffer() : null;
   }
 
   takeEvent({ key, event, revisions, superseded }) {
@@ -193,6 +208,7 @@ export class World extends EventTarget {
 
   /** The world's time, carried on at its pace for as long as it may take to be told anew. */
   time() {
+    if (this.player) return this.player.time();
     if (!this.now) return null;
     const elapsed = Math.min(CARRIED_MS, performance.now() - this.now.heard);
     return this.now.t + (this.now.rate * elapsed) / 1000;

@@ -1,58 +1,74 @@
 // The items of the gateway's protocol (scene/item.h, state_table.h) from their bytes.
 
-const KIND_JSON = 0, KIND_STATES = 1;
+const KIND_JSON = 0, KIND_STATES = 1, KIND_CHANGED = 2, KIND_SHAPE = 3;
+const HASH_BYTES = 32;
 const HAS_STATE = 1, NOT_CLEAR = 2, SATURATED = 4, DISCONTINUITY = 8;
 const HEADER_BYTES = 8, STATE_BYTES = 96, ORIENTATION_ONE = 32000;
 
 const text = new TextDecoder();
 
-/** Calls `onJson(object)` and `onState(number, state | null)` for all that is in a message. */
-export function readItems(buffer, onJson, onState) {
+/**
+ * Hands all that is in a message to `model`: take(object), takeState(number, state | null),
+ * takeShape(hash, bytes).
+ */
+export function readItems(buffer, model) {
   const view = new DataView(buffer);
   for (let at = 0; at + 8 <= buffer.byteLength;) {
     const kind = view.getUint32(at, true), length = view.getUint32(at + 4, true);
     at += 8;
     if (at + length > buffer.byteLength) throw new Error("an item is cut off");
     if (kind === KIND_JSON) {
-      onJson(JSON.parse(text.decode(new Uint8Array(buffer, at, length))));
+      model.take(JSON.parse(text.decode(new Uint8Array(buffer, at, length))));
     } else if (kind === KIND_STATES) {
-      readStates(view, at, onState);
+      readStates(view, at, model);
+    } else if (kind === KIND_CHANGED) {
+      readChanged(view, at, length, model);
+    } else if (kind === KIND_SHAPE) {
+      const hash = [...new Uint8Array(buffer, at, HASH_BYTES)];
+      model.takeShape(hash.map((byte) => byte.toString(16).padStart(2, "0")).join(""),
+                      buffer.slice(at + HASH_BYTES, at + length));
     }
     at += length;
   }
 }
 
+function readStates(view, at, model) {
+  const first = view.getUint32(at, true), count = view.getUint32(at + 4, true);
+  for (let i = 0; i < count; ++i) {
+    model.takeState(first + i, readState(view, at + HEADER_BYTES + i * STATE_BYTES));
+  }
+}
+
+function readChanged(view, at, length, model) {
+  for (const end = at + length; at < end; at += HEADER_BYTES + STATE_BYTES) {
+    model.takeState(view.getUint32(at, true), readState(view, at + HEADER_BYTES));
+  }
+}
+
 /**
- * One chunk. A state: t [s], position p [m], velocity v, acceleration a, angular velocity w, all in
+ * A state: t [s], position p [m], velocity v, acceleration a, angular velocity w, all in
  * the world frame; orientation q (w x y z); errors of position and velocity; until when it is
  * clear.
  */
-function readStates(view, at, onState) {
-  const first = view.getUint32(at, true), count = view.getUint32(at + 4, true);
-  for (let i = 0; i < count; ++i) {
-    const s = at + HEADER_BYTES + i * STATE_BYTES;
-    const flags = view.getUint32(s, true);
-    if (!(flags & HAS_STATE)) {
-      onState(first + i, null);
-      continue;
-    }
-    const f32 = (offset) => view.getFloat32(s + offset, true);
-    const f64 = (offset) => view.getFloat64(s + offset, true);
-    const i16 = (offset) => view.getInt16(s + offset, true) / ORIENTATION_ONE;
-    const t = f64(8);
-    onState(first + i, {
-      t,
-      p: [f64(16), f64(24), f64(32)],
-      v: [f32(40), f32(44), f32(48)],
-      a: [f32(52), f32(56), f32(60)],
-      w: [f32(64), f32(68), f32(72)],
-      q: [i16(84), i16(86), i16(88), i16(90)],
-      positionError: f32(76),
-      velocityError: f32(80),
-      clearUntil: t + f32(4),
-      notClear: (flags & NOT_CLEAR) !== 0,
-      saturated: (flags & SATURATED) !== 0,
-      jumped: (flags & DISCONTINUITY) !== 0,
-    });
-  }
+function readState(view, s) {
+  const flags = view.getUint32(s, true);
+  if (!(flags & HAS_STATE)) return null;
+  const f32 = (offset) => view.getFloat32(s + offset, true);
+  const f64 = (offset) => view.getFloat64(s + offset, true);
+  const i16 = (offset) => view.getInt16(s + offset, true) / ORIENTATION_ONE;
+  const t = f64(8);
+  return {
+    t,
+    p: [f64(16), f64(24), f64(32)],
+    v: [f32(40), f32(44), f32(48)],
+    a: [f32(52), f32(56), f32(60)],
+    w: [f32(64), f32(68), f32(72)],
+    q: [i16(84), i16(86), i16(88), i16(90)],
+    positionError: f32(76),
+    velocityError: f32(80),
+    clearUntil: t + f32(4),
+    notClear: (flags & NOT_CLEAR) !== 0,
+    saturated: (flags & SATURATED) !== 0,
+    jumped: (flags & DISCONTINUITY) !== 0,
+  };
 }

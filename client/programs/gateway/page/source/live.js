@@ -29,6 +29,7 @@ export class LiveSource {
     };
     this.socket.onmessage = (message) => this.take(message.data);
     this.socket.onclose = () => {
+      if (this.isClosed) return;
       this.onLink("the gateway is not heard; trying again");
       setTimeout(() => this.connect(), AGAIN_MS);
     };
@@ -39,8 +40,7 @@ export class LiveSource {
     ++this.messages;
     this.onLink("");
     try {
-      readItems(bytes, (item) => this.model.take(item),
-                (number, state) => this.model.takeState(number, state));
+      readItems(bytes, this.model);
       this.model.arrived();
     } finally {
       // When it is shown: a page that is not drawn is sent no more.
@@ -49,6 +49,12 @@ export class LiveSource {
         if (socket.readyState === WebSocket.OPEN) socket.send("ack");
       });
     }
+  }
+
+  /** A recording takes its place. */
+  close() {
+    this.isClosed = true;
+    this.socket.close();
   }
 
   lookAtSilence() {

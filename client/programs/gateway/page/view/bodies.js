@@ -87,7 +87,7 @@ export class Bodies {
   }
 
   async fetch(hash) {
-    const answer = await fetch(`shapes/${hash}`);
-    if (answer.ok) this.geometries.set(hash, readShape(await answer.arrayBuffer()));
+    const bytes = await this.world.shapeBytes(hash);
+    if (bytes) this.geometries.set(hash, readShape(bytes));
   }
 }

@@ -1,4 +1,4 @@
-#include "server/recording/transcript.h"
+#include "server/recording/replay/transcript.h"
 
 #include <string>
 

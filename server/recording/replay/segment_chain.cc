@@ -1,4 +1,4 @@
-#include "server/recording/segment_chain.h"
+#include "server/recording/replay/segment_chain.h"
 
 #include <algorithm>
 #include <filesystem>

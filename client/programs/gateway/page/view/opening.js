@@ -1,0 +1,48 @@
+// Opening recordings: by dropping a file anywhere, or by the button.
+import { converted, load, messagesIn, messagesOf } from "../source/recorded.js";
+import { seconds } from "./format.js";
+
+/** `tell(text)`: how far it is, or what is wrong. `begin()`: what is live ends. `opened(name)`. */
+export class Opening {
+  constructor(world, button, input, callbacks) {
+    Object.assign(this, { world, callbacks, isBusy: false });
+    button.addEventListener("click", () => (world.player ? location.reload() : input.click()));
+    input.addEventListener("change", () => input.files.length > 0 && this.open(input.files[0]));
+    addEventListener("dragover", (drag) => drag.preventDefault());
+    addEventListener("drop", (drop) => {
+      drop.preventDefault();
+      const file = drop.dataTransfer.files[0];
+      if (file) this.open(file);
+    });
+  }
+
+  async open(file) {
+    if (this.isBusy) return;
+    this.isBusy = true;
+    const { tell } = this.callbacks;
+    try {
+      tell(`${file.name}: being read …`);
+      const isMcap = (await file.slice(1, 5).text()) === "MCAP";
+      if (!isMcap) tell(`${file.name}: the gateway lets collisiond replay it …`);
+      await this.show(messagesOf(isMcap ? file : await converted(file)), file.name);
+    } catch (error) {
+      tell(`${file.name} cannot be shown: ${error.message}`);
+    }
+    this.isBusy = false;
+  }
+
+  /** What this page holds, if it is one that collisionctl export has made. */
+  async openOwn(holder) {
+    try {
+      await this.show(messagesIn(holder.textContent), holder.dataset.name);
+    } catch (error) {
+      this.callbacks.tell(`cannot be shown: ${error.message}`);
+    }
+  }
+
+  async show(messages, name) {
+    const { tell, begin, opened } = this.callbacks;
+    await load(this.world, messages, begin, (t) => t !== undefined && tell(`${name}: ${seconds(t)} …`));
+    opened(name);
+  }
+}
