@@ -1,6 +1,6 @@
-# cmake -D SOURCE=... -D WORK=... -D TARGET=... -D NPM=... -D GZIP=...
+# cmake -D SOURCE=... -D WORK=... -D TARGET=... -D NPM=... -D NODE=... -D GZIP=...
 #   -D STAMP=... -P install_page.cmake
-# The page as browsers get it, in TARGET: ours from SOURCE, and what it takes from npm, which is
+# The page as browsers get it, in TARGET, and beside it the template of a page of one file: ours from SOURCE, and what it takes from npm, which is
 # fetched into WORK. Where it cannot fetch there is no page, and a line says so; STAMP is made once
 # there is one.
 file(MAKE_DIRECTORY ${TARGET} ${WORK})
@@ -47,6 +47,10 @@ file(COPY ${modules}/heap-js/dist/heap-js.es5.js DESTINATION ${TARGET}/lib)
 file(COPY_FILE ${modules}/heap-js/LICENSE ${TARGET}/lib/heap-js.LICENSE)
 file(COPY_FILE ${modules}/fzstd/esm/index.mjs ${TARGET}/lib/fzstd.mjs)
 file(COPY_FILE ${modules}/fzstd/LICENSE ${TARGET}/lib/fzstd.LICENSE)
+if(NODE)
+  execute_process(COMMAND ${NODE} ${SOURCE}/../single_page.mjs ${TARGET} ${TARGET}/../single.html
+    COMMAND_ERROR_IS_FATAL ANY)
+endif()
 if(GZIP)
   file(GLOB_RECURSE texts ${TARGET}/*.js ${TARGET}/*.mjs ${TARGET}/*.css)
   execute_process(COMMAND ${GZIP} -9nkf ${texts} COMMAND_ERROR_IS_FATAL ANY)

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "client/library/identity/library_version.h"
-#include "client/programs/scene/item.h"
 #include "idl/limits.h"
 
 namespace collision::client {
@@ -93,16 +92,14 @@ class WorldRecorder::Tee final : public Receiver {
 };
 
 WorldRecorder::WorldRecorder(std::unique_ptr<Receiver> receiver, WorldRecorderOptions options)
-    : options_(std::move(options)) {
+    : options_(std::move(options)), stream_(std::make_unique<Tee>(std::move(receiver), this)) {
   Begin();
-  monitor_ = std::make_unique<MessageMonitor>(std::make_unique<Tee>(std::move(receiver), this),
-                                              scene_.Callbacks());
 }
 
 WorldRecorder::~WorldRecorder() = default;
 
 std::size_t WorldRecorder::Poll(std::chrono::nanoseconds timeout) {
-  const std::size_t messages = monitor_->Poll(timeout);
+  const std::size_t messages = stream_.Poll(timeout);
   if (messages == 0) return 0;
   if (now_ns_ >= page_due_ns_) WritePage();
   if (options_.wall_ns() >= chunk_due_ns_) {
@@ -126,7 +123,7 @@ void WorldRecorder::Begin() {
   schemas_.clear();
   page_ = file_->Add(
       McapWriter::Channel{.schema = 0, .topic = "/page", .message_encoding = "collision.page.v1"});
-  seen_ = seen_states_ = 0;
+  stream_.BeginAnew();
   newest_ns_ = std::numeric_limits<std::int64_t>::min();
   has_agents_ = false;
   page_due_ns_ = chunk_due_ns_ = std::numeric_limits<std::int64_t>::min();
@@ -180,21 +177,9 @@ std::uint16_t WorldRecorder::ChannelOf(const std::string& topic,
 
 void WorldRecorder::WritePage() {
   page_due_ns_ = now_ns_ + static_cast<std::int64_t>(1e9 / options_.rate_hz);
-  const SceneChanges changes = scene_.TakeChanges();
-  items_.Put(scene_, changes,
-             {.service_alive = monitor_->service_alive(),
-              .contacts_missed = monitor_->contacts_missed(),
-              .unreadable = monitor_->unreadable()});
+  if (stream_.IsOver()) return;
   std::string message;
-  for (const std::string& hash : changes.shapes) {
-    message += *MakeItem(ItemKind::kShape, hash + *shapes_.Find(hash));
-  }
-  std::string states = scene_.states().PackAfter(seen_states_);
-  seen_states_ = scene_.states().newest_change();
-  const Board::News news = board_.After(seen_, std::numeric_limits<std::size_t>::max());
-  seen_ = news.seen;
-  for (const Board::Item& item : news.items) message += *item.payload;
-  if (!states.empty()) message += *MakeItem(ItemKind::kChangedStates, std::move(states));
+  for (const Board::Item& item : stream_.TakeNew()) message += *item.payload;
   if (message.empty()) return;
   file_->Write(page_, FileTime(now_ns_), FileTime(options_.wall_ns()), message);
 }

@@ -10,9 +10,7 @@
 
 #include "client/library/network/message_monitor.h"
 #include "client/programs/recordings/mcap_writer.h"
-#include "client/programs/scene/board.h"
-#include "client/programs/scene/page_items.h"
-#include "client/programs/scene/scene.h"
+#include "client/programs/recordings/page_stream.h"
 
 namespace collision::client {
 
@@ -48,8 +46,7 @@ class WorldRecorder {
 
   /// Of the world.
   std::int64_t now_ns() const { return now_ns_; }
-  const MessageMonitor& monitor() const { return *monitor_; }
-  const WorldView& view() const { return scene_.view(); }
+  const WorldView& view() const { return stream_.scene().view(); }
 
  private:
   class Tee;
@@ -61,10 +58,7 @@ class WorldRecorder {
   std::uint16_t ChannelOf(const std::string& topic, const google::protobuf::Message& message);
 
   const WorldRecorderOptions options_;
-  ShapeStore shapes_;
-  Scene scene_{&shapes_};
-  Board board_;
-  PageItems items_{&board_, StatesOnBoard::kNone};
+  PageStream stream_;
   std::unique_ptr<McapWriter> file_;
   std::map<std::string, std::uint16_t> channels_;  ///< By topic.
   std::map<std::string, std::uint16_t> schemas_;   ///< By message type.
@@ -76,8 +70,6 @@ class WorldRecorder {
   bool has_agents_ = false;                                            ///< In the file.
   std::int64_t page_due_ns_ = 0;                                       ///< In the world's time.
   std::int64_t chunk_due_ns_ = 0;                                      ///< By the wall clock.
-  std::uint64_t seen_ = 0, seen_states_ = 0;                           ///< What `/page` has.
-  std::unique_ptr<MessageMonitor> monitor_;
 };
 
 }  // namespace collision::client

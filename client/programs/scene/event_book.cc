@@ -41,6 +41,12 @@ void EventBook::Take(const v1::CollisionEvent& event) {
   if (events_.size() > kEventsMax) DropOldest();
 }
 
+std::optional<std::uint64_t> EventBook::NumberOf(const v1::CollisionEvent& event) const {
+  const auto known = events_.find(KeyOf(event));
+  if (known == events_.end()) return std::nullopt;
+  return known->second.number;
+}
+
 void EventBook::Supersede(const Key& key) {
   const auto former = events_.find(key);
   if (former == events_.end() || former->second.newest.status() != v1::EVENT_POSSIBLE) return;
@@ -48,16 +54,15 @@ void EventBook::Supersede(const Key& key) {
   changed_.insert(key);
 }
 
-/// The oldest that is over; where none is, the oldest.
+/// The oldest that came to nothing; where none did, the oldest that is over, or else the oldest.
 void EventBook::DropOldest() {
-  auto oldest = by_age_.begin();
+  auto over = by_age_.end();
   for (auto next = by_age_.begin(); next != by_age_.end(); ++next) {
     const Entry& entry = events_.at(next->second);
-    if (IsOpen(entry.newest.status()) && !entry.is_superseded) continue;
-    oldest = next;
-    break;
+    if (entry.CameToNothing()) return Drop(next);
+    if (over == by_age_.end() && !IsOpen(entry.newest.status())) over = next;
   }
-  Drop(oldest);
+  Drop(over == by_age_.end() ? by_age_.begin() : over);
 }
 
 void EventBook::Drop(std::map<std::uint64_t, Key>::iterator oldest) {

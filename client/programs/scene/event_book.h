@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -13,8 +14,8 @@
 
 namespace collision::client {
 
-/// Keeps each event with what its revisions said, the newest kEventsMax; those that are over go
-/// first. One thread.
+/// Keeps each event with what its revisions said, the newest kEventsMax; those that came to
+/// nothing go first. One thread.
 class EventBook {
  public:
   static constexpr std::size_t kEventsMax = 4096;
@@ -37,6 +38,11 @@ class EventBook {
     v1::CollisionEvent newest;
     std::vector<Revision> revisions;
     bool is_superseded = false;  ///< A forecast of which nothing more will be told.
+
+    bool CameToNothing() const {
+      return is_superseded || newest.status() == v1::EVENT_DISMISSED ||
+             newest.status() == v1::EVENT_WITHDRAWN;
+    }
   };
 
   /// By their numbers.
@@ -47,6 +53,11 @@ class EventBook {
 
   /// Since the last call.
   Changes TakeChanges();
+
+  bool Has(std::uint64_t number) const { return by_age_.count(number) > 0; }
+
+  /// The number of this event, whichever its revision; nullopt: it is not kept.
+  std::optional<std::uint64_t> NumberOf(const v1::CollisionEvent& event) const;
 
   /// Requires that it is kept.
   const Entry& At(std::uint64_t number) const { return events_.at(by_age_.at(number)); }

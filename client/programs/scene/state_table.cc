@@ -48,6 +48,16 @@ bool CanBe(const v1::AgentState& state) {
          IsWithin(errors, kMost);
 }
 
+StateTable::Agent Rounded(StateTable::Agent agent, double step) {
+  const auto round = [step](double* x) { *x = step * std::round(*x / step); };
+  for (auto* vector : {&agent.p, &agent.v, &agent.a, &agent.w}) {
+    for (double& x : *vector) round(&x);
+  }
+  round(&agent.position_error);
+  round(&agent.velocity_error);
+  return agent;
+}
+
 }  // namespace
 
 std::optional<std::uint32_t> StateTable::NumberOf(std::uint64_t simulator, std::uint32_t slot) {
@@ -131,15 +141,21 @@ std::string StateTable::Pack(std::uint32_t chunk) const {
   return bytes;
 }
 
-std::string StateTable::PackAfter(std::uint64_t seen) const {
-  std::string bytes;
+std::string StateTable::PackAfter(std::uint64_t seen, double step) const {
+  std::string rows;
   for (std::uint32_t number = 0; number < agents_.size(); ++number) {
     if (agents_[number].change <= seen) continue;
-    Put(number, &bytes);
-    Put(std::uint32_t{0}, &bytes);
-    PackAgent(agents_[number], &bytes);
+    Put(number, &rows);
+    Put(std::uint32_t{0}, &rows);
+    PackAgent(step > 0 ? Rounded(agents_[number], step) : agents_[number], &rows);
   }
-  return bytes;
+  constexpr std::size_t kRow = kHeaderBytes + kStateBytes;
+  std::string planes(rows.size(), '\0');
+  const std::size_t count = rows.size() / kRow;
+  for (std::size_t row = 0; row < count; ++row) {
+    for (std::size_t k = 0; k < kRow; ++k) planes[k * count + row] = rows[row * kRow + k];
+  }
+  return planes;
 }
 
 void StateTable::PackAgent(const Agent& agent, std::string* bytes) {

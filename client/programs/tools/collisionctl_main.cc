@@ -31,6 +31,7 @@
 #include "client/programs/tools/collisionctl/why/agent_lookup.h"
 #include "client/programs/tools/collisionctl/why/why_page.h"
 #include "client/programs/tools/recordings/convert.h"
+#include "client/programs/tools/recordings/export.h"
 #include "client/programs/tools/sphere_tree/command.h"
 #include "client/programs/tools/suggest_bounds/command.h"
 #include "idl/limits.h"
@@ -301,6 +302,8 @@ int Main(int argc, char** argv) {
   ConvertOptions mcap;
   const CLI::App* convert = AddConvertCommand(&app, &mcap);
   const CLI::App* record = AddRecordCommand(&app, &mcap);
+  ExportOptions single;
+  const CLI::App* export_command = AddExportCommand(&app, &single);
   AddExamples(&app);
   AddVersion(&app);
   if (const std::optional<int> code = Parse(&app, argc, argv)) return *code;
@@ -310,6 +313,7 @@ int Main(int argc, char** argv) {
     if (options.json) tree.report = "json";
     return RunSphereTree(tree);
   }
+  if (export_command->parsed()) return RunExport(single);
   if (convert->parsed()) return RunConvert(mcap);
   if (record->parsed()) return RunRecord(mcap, options.monitor, options.timeout_s);
   if (make_certificates->parsed()) return RunMakeCertificates(certificates, GivenPlace(app));

@@ -173,14 +173,17 @@ let source = null;
 const opening = new Opening(world, $("open"), $("file"), {
   tell: (text) => (state.told = text),
   begin: () => source?.close(),
-  opened: (name) => {
+  opened: (name, key) => {
     const { player } = world;
     state.told = `${name}: ${seconds(player.end - player.begin)} of its world`;
     $("scrub").min = player.begin - player.end;
     $("scrub").setAttribute("aria-label", "Seconds before the end");
+    $("open").hidden = own !== null;
     $("open").textContent = "Back to what is live";
     $("live").textContent = "End";
-    pause(player.begin);
+    const event = world.events.get(key);
+    pause(event?.event.begin.earliest_s ?? player.begin);
+    if (event) choose({ event });
     if (location.hash) linked = followLink();
   },
 });

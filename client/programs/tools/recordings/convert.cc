@@ -19,10 +19,9 @@ namespace collision::client {
 namespace {
 
 constexpr std::chrono::milliseconds kWaitMax{100};  ///< Longest time to notice the end.
-constexpr double kRateMin = 0.1, kRateMax = 100;
-constexpr double kSecondsMax = 1e7;
+constexpr double kRecordSecondsMax = 1e7;
 
-constexpr const char* kFooter = R"(
+constexpr const char* kMcapFooter = R"(
 An MCAP file has every message on a channel with the name of its topic, as protobuf with its
 schema, and what the gateway's page needs to show it (drop the file onto the page). Its times are
 the world's; where these begin anew, FILE.2.mcap begins. Foxglove, Lichtblick, PlotJuggler and
@@ -46,19 +45,6 @@ std::chrono::nanoseconds Nanoseconds(double seconds) {
       std::chrono::duration<double>(seconds));
 }
 
-void AddRate(CLI::App* command, ConvertOptions* options) {
-  command
-      ->add_option("--rate", options->rate_hz,
-                   "How often the page's channel is written, a second of the world, 0.1 to 100")
-      ->check(Between(kRateMin, kRateMax))
-      ->capture_default_str();
-}
-
-int Fail(const std::string& what, int code) {
-  std::cerr << "collisionctl: " << what << '\n';
-  return code;
-}
-
 void PrintFiles(const WorldRecorder& recorder) {
   for (const auto& [path, messages] : recorder.files()) {
     std::cout << path << ": " << messages << " messages\n";
@@ -72,8 +58,8 @@ CLI::App* AddConvertCommand(CLI::App* app, ConvertOptions* options) {
       app->add_subcommand("convert", "A recording as an MCAP file, for Foxglove and others");
   AddReplayOptions(command, &options->input, &options->from, &options->until);
   command->add_option("OUTPUT", options->output, "MCAP file; a former one is replaced")->required();
-  AddRate(command, options);
-  command->footer(std::string(kConvertFooter) + kFooter);
+  AddRateOption(command, "How often the page's channel is written", &options->rate_hz);
+  command->footer(std::string(kConvertFooter) + kMcapFooter);
   return command;
 }
 
@@ -82,11 +68,11 @@ CLI::App* AddRecordCommand(CLI::App* app, ConvertOptions* options) {
       app->add_subcommand("record", "A running world to an MCAP file, until Ctrl-C");
   command->add_option("OUTPUT", options->output, "MCAP file; a former one is replaced")->required();
   command->add_option("--seconds", options->seconds, "End after so many seconds, up to 1e7")
-      ->check(Finite(kSecondsMax, false));
+      ->check(Finite(kRecordSecondsMax, false));
   command->add_flag("!--no-watch", options->watch,
                     "Do not ask simulators for fresh states at --rate meanwhile");
-  AddRate(command, options);
-  command->footer(std::string(kRecordFooter) + kFooter);
+  AddRateOption(command, "How often the page's channel is written", &options->rate_hz);
+  command->footer(std::string(kRecordFooter) + kMcapFooter);
   return command;
 }
 
@@ -96,9 +82,9 @@ int RunConvert(const ConvertOptions& options) {
     replayed =
         std::make_unique<ReplayedWorld>(ReplayOf(options.input, options.from, options.until));
   } catch (const BadInput& error) {
-    return Fail(error.what(), kExitUsage);
+    return FailWith(error.what(), kExitUsage);
   } catch (const std::runtime_error& error) {
-    return Fail(error.what(), kExitNoInput);
+    return FailWith(error.what(), kExitNoInput);
   }
   try {
     ReplayedWorld& world = *replayed;
@@ -114,10 +100,10 @@ int RunConvert(const ConvertOptions& options) {
     const bool is_stopped = !world.is_over();
     recorder.Close();
     PrintFiles(recorder);
-    if (is_stopped) return Fail("stopped: the rest of the recording is missing", kExitRefused);
+    if (is_stopped) return FailWith("stopped: the rest of the recording is missing", kExitRefused);
     return world.Finish();
   } catch (const std::runtime_error& error) {
-    return Fail(error.what(), kExitOutputFailed);
+    return FailWith(error.what(), kExitOutputFailed);
   }
 }
 
@@ -155,10 +141,10 @@ int RunRecord(const ConvertOptions& options, const MonitorOptions& place, double
     recorder.Close();
     PrintFiles(recorder);
     if (has_service) return kExitOk;
-    return Fail("no service was heard: is the world right? see collisionctl doctor",
-                kExitUnavailable);
+    return FailWith("no service was heard: is the world right? see collisionctl doctor",
+                    kExitUnavailable);
   } catch (const std::runtime_error& error) {
-    return Fail(error.what(), kExitUnavailable);
+    return FailWith(error.what(), kExitUnavailable);
   }
 }
 

@@ -3,8 +3,10 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <iostream>
 #include <utility>
 
+#include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/kept/kept_options.h"
 
@@ -35,6 +37,18 @@ void AddReplayOptions(CLI::App* command, std::string* file, std::string* from, s
       ->required();
   command->add_option("--from", *from, "Of a folder: begin with the segment of this time (UTC)");
   command->add_option("--until", *until, "Up to this time (UTC)");
+}
+
+void AddRateOption(CLI::App* command, const std::string& what, double* rate_hz) {
+  constexpr double kRateMin = 0.1, kRateMax = 100;
+  command->add_option("--rate", *rate_hz, what + ", a second of the world, 0.1 to 100")
+      ->check(Between(kRateMin, kRateMax))
+      ->capture_default_str();
+}
+
+int FailWith(const std::string& what, int code) {
+  std::cerr << "collisionctl: " << what << '\n';
+  return code;
 }
 
 ReplayRequest ReplayOf(const std::string& file, const std::string& from, const std::string& until) {

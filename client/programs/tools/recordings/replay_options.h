@@ -12,6 +12,12 @@ namespace collision::client {
 /// FILE, --from and --until.
 void AddReplayOptions(CLI::App* command, std::string* file, std::string* from, std::string* until);
 
+/// --rate, with what it is about.
+void AddRateOption(CLI::App* command, const std::string& what, double* rate_hz);
+
+/// Says what is wrong on standard error, and returns the code.
+int FailWith(const std::string& what, int code);
+
 /// Throws BadInput for what is no time.
 ReplayRequest ReplayOf(const std::string& file, const std::string& from, const std::string& until);
 

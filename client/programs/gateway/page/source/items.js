@@ -39,9 +39,15 @@ function readStates(view, at, model) {
   }
 }
 
+/** Rows whose first bytes come first, then all second ones, and so on. */
 function readChanged(view, at, length, model) {
-  for (const end = at + length; at < end; at += HEADER_BYTES + STATE_BYTES) {
-    model.takeState(view.getUint32(at, true), readState(view, at + HEADER_BYTES));
+  const row = HEADER_BYTES + STATE_BYTES, count = Math.floor(length / row);
+  const rows = new DataView(new ArrayBuffer(count * row));
+  for (let k = 0; k < row; ++k) {
+    for (let i = 0; i < count; ++i) rows.setUint8(i * row + k, view.getUint8(at + k * count + i));
+  }
+  for (let s = 0; s < count * row; s += row) {
+    model.takeState(rows.getUint32(s, true), readState(rows, s + HEADER_BYTES));
   }
 }
 

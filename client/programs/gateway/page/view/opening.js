@@ -34,15 +34,17 @@ export class Opening {
   /** What this page holds, if it is one that collisionctl export has made. */
   async openOwn(holder) {
     try {
-      await this.show(messagesIn(holder.textContent), holder.dataset.name);
+      const { name, event } = holder.dataset;
+      await this.show(messagesIn(holder.textContent), name, event);
     } catch (error) {
       this.callbacks.tell(`cannot be shown: ${error.message}`);
     }
   }
 
-  async show(messages, name) {
+  /** `event`: the key of the one that is shown first. */
+  async show(messages, name, event) {
     const { tell, begin, opened } = this.callbacks;
     await load(this.world, messages, begin, (t) => t !== undefined && tell(`${name}: ${seconds(t)} …`));
-    opened(name);
+    opened(name, event);
   }
 }

@@ -17,12 +17,12 @@ std::int64_t Difference(std::int64_t a, std::int64_t b) {
   return a > b ? kNever : std::numeric_limits<std::int64_t>::min();
 }
 
+}  // namespace
+
 bool IsCalled(const AgentId& id, const std::string& name, const WorldView& view) {
   const std::string agent = view.Name(id);
   return name == agent || name == view.SimulatorName(id.simulator) + ":" + agent;
 }
-
-}  // namespace
 
 std::string UnknownLevelText(const EventFilter& filter, const WorldView& view) {
   const auto told = view.HelloExtension(std::string(wire::kLevelsExtension));

@@ -29,6 +29,9 @@ struct EventFilter {
   bool expected = false;
 };
 
+/// Whether the agent has this name, alone or behind its simulator's: "agent", "simulator:agent".
+bool IsCalled(const AgentId& id, const std::string& name, const WorldView& view);
+
 /// A sentence if the filter names a level that the service in force does not have, with those that
 /// it has; empty: it names none, or the service has not said which there are.
 std::string UnknownLevelText(const EventFilter& filter, const WorldView& view);

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "client/programs/recordings/mcap_writer.h"
+#include "client/programs/recordings/single_page.h"
 
 namespace collision::client {
 
@@ -22,5 +23,10 @@ const std::string& McapWriter::path() const {
   return kNone;
 }
 std::uint64_t McapWriter::messages() const { return 0; }
+
+std::string SinglePage(const std::string&, const SinglePageTitle&,
+                       const std::vector<std::string>&) {
+  throw std::runtime_error("this build writes no pages: it takes libzstd and zlib");
+}
 
 }  // namespace collision::client

@@ -1,0 +1,89 @@
+#include "client/programs/recordings/single_page.h"
+
+#include <zlib.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <string_view>
+
+namespace collision::client {
+namespace {
+
+constexpr std::string_view kPlace = "<!-- recorded -->";
+
+/// As gzip packs it, as well as it can.
+std::string Gzipped(const std::string& bytes) {
+  constexpr int kGzip = 16 + MAX_WBITS, kMemory = 9;
+  z_stream stream{};
+  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) !=
+      Z_OK) {
+    throw std::runtime_error("zlib cannot be used");
+  }
+  std::string packed(deflateBound(&stream, bytes.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const bool is_whole = bytes.size() < UINT32_MAX && deflate(&stream, Z_FINISH) == Z_STREAM_END;
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (!is_whole) throw std::runtime_error("the page is too large");
+  return packed;
+}
+
+std::string Base64(const std::string& bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve(bytes.size() / 3 * 4 + 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += i + k > bytes.size() ? '=' : kDigits[three >> (18 - 6 * k) & 63];
+    }
+  }
+  return text;
+}
+
+std::string EscapedForHtml(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace
+
+std::string SinglePage(const std::string& page_template, const SinglePageTitle& title,
+                       const std::vector<std::string>& messages) {
+  const std::size_t place = page_template.find(kPlace);
+  if (place == std::string::npos) throw std::runtime_error("not the template of a page");
+  std::string bytes;
+  for (const std::string& message : messages) {
+    for (int shift = 0; shift < 32; shift += 8) {
+      bytes += static_cast<char>(message.size() >> shift);
+    }
+    bytes += message;
+  }
+  return page_template.substr(0, place) +
+         "<script type=\"text/plain\" id=\"recorded\" data-name=\"" + EscapedForHtml(title.name) +
+         "\" data-event=\"" + EscapedForHtml(title.event_key) + "\">" + Base64(Gzipped(bytes)) +
+         "</script>" + page_template.substr(place + kPlace.size());
+}
+
+}  // namespace collision::client

@@ -1,0 +1,232 @@
+#include "client/programs/tools/recordings/export.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "client/library/network/conversion.h"
+#include "client/programs/recordings/page_stream.h"
+#include "client/programs/recordings/replayed_world.h"
+#include "client/programs/recordings/single_page.h"
+#include "client/programs/shared/command_line.h"
+#include "client/programs/shared/exit_code.h"
+#include "client/programs/shared/forecast_slots.h"
+#include "client/programs/tools/recordings/event_search.h"
+#include "client/programs/tools/recordings/replay_options.h"
+
+namespace collision::client {
+namespace {
+
+constexpr double kAroundSecondsMax = 86400;
+
+constexpr const char* kExportFooter = R"(
+The page needs no server and nothing from the network: it shows the event in 3D with its timeline,
+the agents around it and their past, in any browser.
+
+Examples:
+  collisionctl export run.rec --html contact.html                    the first contact
+  collisionctl export run.rec --html contact.html --around 7         the seventh
+  collisionctl export run.rec --html near.html --around ada,bob --before 120
+)";
+
+/// The world's time from `from` to `until` [ns].
+struct Window {
+  std::int64_t from_ns = 0, until_ns = 0;
+};
+
+std::int64_t Ns(double seconds) { return static_cast<std::int64_t>(1e9 * seconds); }
+
+std::string ReadTemplate(const std::string& given) {
+  std::string path = given;
+  if (path.empty()) {
+    std::error_code failed;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", failed);
+    const auto share = program.parent_path().parent_path() / "share" / "collision-gateway";
+    path = (share / "single.html").string();
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file && text) return std::move(text).str();
+  throw std::runtime_error(path +
+                           ": the page's template cannot be read; it comes with the package "
+                           "collision-gateway, or name it by --template");
+}
+
+/// From the first pass.
+struct Found {
+  v1::CollisionEvent event;
+  double radius_m = 0;  ///< Of the smallest agent; 0: it is not known.
+  Window window;
+};
+
+double SmallestRadius(const WorldView& view) {
+  double least = 0;
+  for (const AgentView& agent : view.Agents()) {
+    const double radius = agent.description.radius_m();
+    if (radius > 0 && (least == 0 || radius < least)) least = radius;
+  }
+  return least;
+}
+
+/// What is rounded to it looks the same: a power of two below a part of the smallest agent.
+double StepFor(double radius_m) {
+  constexpr double kParts = 500;
+  return radius_m > 0 ? std::exp2(std::floor(std::log2(radius_m / kParts))) : 0;
+}
+
+Found Find(const ExportOptions& options, const ReplayRequest& request) {
+  EventSearch search(options.around);
+  auto replayed = std::make_unique<ReplayedWorld>(request);
+  const ReplayedWorld& world = *replayed;
+  WorldView view;
+  MessageMonitor::Callbacks callbacks = view.Callbacks();
+  callbacks.event = [&search, &view, keep = callbacks.event](const v1::CollisionEvent& event) {
+    keep(event);
+    search.Take(event, view);
+  };
+  MessageMonitor monitor(std::move(replayed), callbacks);
+  while (!world.is_over() && !search.is_settled()) {
+    monitor.Poll({});
+    static_cast<void>(view.TakeEvents());
+  }
+  if (!search.found()) {
+    const std::string contacts = search.Contacts();
+    throw BadInput("--around: no such event in the recording" +
+                   (contacts.empty() ? std::string("; there is no contact in it")
+                                     : "; contacts in it, by their numbers:\n" + contacts));
+  }
+  const v1::CollisionEvent& event = *search.found();
+  const std::int64_t begin = event.begin().earliest_ns();
+  std::int64_t end = event.end().latest_ns();
+  if (end == std::numeric_limits<std::int64_t>::max()) end = event.begin().latest_ns();
+  if (end == std::numeric_limits<std::int64_t>::max()) end = std::max(begin, event.now_ns());
+  return {
+      .event = event,
+      .radius_m = SmallestRadius(view),
+      .window = {.from_ns = begin - Ns(options.before_s), .until_ns = end + Ns(options.after_s)}};
+}
+
+/// What the page is told of events: the newest of each, without those that came to nothing.
+class EventItems {
+ public:
+  explicit EventItems(const v1::CollisionEvent& wanted) : wanted_(KeyOf(wanted)) {}
+
+  /// Whether the item is about an event.
+  bool Take(const Board::Item& item, const EventBook& book) {
+    if (item.name.starts_with("gone/")) return true;
+    if (!item.name.starts_with("event/")) return false;
+    const EventBook::Entry& entry = book.At(std::stoull(item.name.substr(item.name.find('/') + 1)));
+    if (KeyOf(entry.newest) == wanted_) wanted_item_ = item.name;
+    entry.CameToNothing() ? static_cast<void>(newest_.erase(item.name))
+                          : static_cast<void>(newest_[item.name] = item.payload);
+    return true;
+  }
+
+  std::string All() const {
+    std::string all;
+    for (const auto& [name, payload] : newest_) all += *payload;
+    return all;
+  }
+
+  /// The name of the item of the wanted event; empty: there is none.
+  const std::string& wanted_item() const { return wanted_item_; }
+
+ private:
+  const EventKey wanted_;
+  std::string wanted_item_;
+  std::map<std::string, Payload> newest_;
+};
+
+struct Collected {
+  std::vector<std::string> messages;
+  std::string event_key;  ///< Of the page.
+};
+
+/// The second pass.
+Collected Collect(const ExportOptions& options, const ReplayRequest& request, const Found& found) {
+  auto replayed = std::make_unique<ReplayedWorld>(request);
+  const ReplayedWorld& world = *replayed;
+  PageStream stream(std::move(replayed));
+  Progress progress("export");
+  const double step = StepFor(found.radius_m);
+  Collected collected{.messages = {""}, .event_key = ""};
+  EventItems events(found.event);
+  bool has_begun = false;
+  std::int64_t due_ns = std::numeric_limits<std::int64_t>::min();
+  while (!world.is_over()) {
+    stream.Poll({});
+    const std::int64_t now_ns = stream.scene().now_ns();
+    progress.Tell(now_ns);
+    if (has_begun && (now_ns > found.window.until_ns || stream.IsOver())) break;
+    if (now_ns < due_ns) continue;
+    due_ns = now_ns + Ns(1 / options.rate_hz);
+    if (!has_begun && now_ns >= found.window.from_ns) {
+      has_begun = true;
+      stream.BeginAnew();
+    }
+    std::string message;
+    for (const Board::Item& item : stream.TakeNew(step)) {
+      const bool is_of_event = events.Take(item, stream.scene().events());
+      if (has_begun && !is_of_event) message += *item.payload;
+    }
+    if (!message.empty()) collected.messages.push_back(std::move(message));
+  }
+  collected.messages[0] = events.All();
+  collected.event_key = events.wanted_item();
+  return collected;
+}
+
+}  // namespace
+
+CLI::App* AddExportCommand(CLI::App* app, ExportOptions* options) {
+  CLI::App* command =
+      app->add_subcommand("export", "An event of a recording as a page of one file, to send");
+  AddReplayOptions(command, &options->input, &options->from, &options->until);
+  command->add_option("--html", options->html, "The page; a former one is replaced")->required();
+  command->add_option("--around", options->around,
+                      "Of which event: the number of a contact, or two agents: ada,bob; default: "
+                      "the first contact");
+  for (const auto& [name, value, what] :
+       {std::tuple("--before", &options->before_s, "Seconds before it begins, 0 to 86400"),
+        std::tuple("--after", &options->after_s, "Seconds after it has ended, 0 to 86400")}) {
+    command->add_option(name, *value, what)
+        ->check(Between(0.0, kAroundSecondsMax))
+        ->capture_default_str();
+  }
+  AddRateOption(command, "States of an agent, at most", &options->rate_hz);
+  command->add_option("--template", options->page_template,
+                      "The page without a world; default: that of collision-gateway");
+  command->footer(kExportFooter);
+  return command;
+}
+
+int RunExport(const ExportOptions& options) {
+  try {
+    const std::string page_template = ReadTemplate(options.page_template);
+    const ReplayRequest request = ReplayOf(options.input, options.from, options.until);
+    const Found found = Find(options, request);
+    const Collected collected = Collect(options, request, found);
+    const std::string name = std::filesystem::path(options.input).filename().string();
+    const std::string page = SinglePage(
+        page_template, {.name = name, .event_key = collected.event_key}, collected.messages);
+    std::ofstream file(options.html, std::ios::binary | std::ios::trunc);
+    if (!(file << page).flush())
+      return FailWith(options.html + ": cannot be written", kExitOutputFailed);
+    std::cout << options.html << ": " << page.size() << " bytes\n";
+    return kExitOk;
+  } catch (const BadInput& error) {
+    return FailWith(error.what(), kExitUsage);
+  } catch (const std::runtime_error& error) {
+    return FailWith(error.what(), kExitNoInput);
+  }
+}
+
+}  // namespace collision::client
