@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/report/palette.h"
+
 namespace collision::report {
 
 struct Point {
@@ -18,6 +20,7 @@ struct Series {
   std::vector<Point> points;  ///< In the order in which they are joined.
   bool ours = false;          ///< Drawn thicker.
   std::string limited_by;     ///< What limits it; shown below the plot.
+  std::optional<Look> look;   ///< Nullopt: GiveLooks() finds one.
 };
 
 struct Chart {
@@ -31,11 +34,20 @@ struct Chart {
   bool empty() const { return series.empty(); }
 };
 
+/// Gives each series that has no look the one of its name. Where another curve of the chart has its
+/// colour or its mark, it takes the next that is free; names come in turn by their letters, so the
+/// order of the series does not matter. Curves that have both in common do not occur as long as
+/// there are colours and marks left.
+void GiveLooks(Chart* chart);
+
 /// One line for each point: series, x, y ("inf" at infinity), note.
 std::string Csv(const Chart& chart);
 
+/// Between quotes where commas or quotes ask for it.
+std::string CsvCell(const std::string& text);
+
 /// The script for gnuplot; it writes an SVG to `svg_path`.
-std::string GnuplotScript(const Chart& chart, const std::string& svg_path);
+std::string GnuplotScript(Chart chart, const std::string& svg_path);
 
 /// Runs gnuplot, found on the path, and returns the SVG, which scales to the width it is given.
 /// `folder` takes the script while it runs. Throws std::runtime_error with gnuplot's own words.

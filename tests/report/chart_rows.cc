@@ -77,6 +77,22 @@ Chart ChartOf(Chart chart, const std::vector<const Row*>& rows, const ChartField
   return chart;
 }
 
+std::vector<Row> Renamed(const std::vector<const Row*>& rows, const std::string& field,
+                         const std::function<std::string(const std::string&)>& name) {
+  std::vector<Row> renamed;
+  for (const Row* row : rows) {
+    renamed.push_back(*row);
+    (*renamed.back().mutable_fields())[field].set_string_value(name(TextOf(*row, field)));
+  }
+  return renamed;
+}
+
+std::vector<const Row*> Pointers(const std::vector<Row>& rows) {
+  std::vector<const Row*> pointers;
+  for (const Row& row : rows) pointers.push_back(&row);
+  return pointers;
+}
+
 Table TableOf(const std::string& title, const std::vector<const Row*>& rows,
               const std::vector<Column>& columns) {
   Table table;

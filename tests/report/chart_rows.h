@@ -1,6 +1,7 @@
 // Charts and tables from measurements.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct ChartFields {
 /// with "misses" or "false_alarms" above 0 becomes a cross at infinity, with what it missed as its
 /// note; so does one without y that was given up, noted as "> x s". `chart` brings the words.
 Chart ChartOf(Chart chart, const std::vector<const Row*>& rows, const ChartFields& fields);
+
+/// Copies of the rows with other texts in a field, for the charts' names.
+std::vector<Row> Renamed(const std::vector<const Row*>& rows, const std::string& field,
+                         const std::function<std::string(const std::string&)>& name);
+std::vector<const Row*> Pointers(const std::vector<Row>& rows);
 
 struct Column {
   std::string field, title;

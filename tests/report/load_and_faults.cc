@@ -81,6 +81,17 @@ void AddTakeOvers(const v1::Results& results, Table* table) {
   }
 }
 
+/// "The longest: killed 101 ms."
+std::string Longest(const Chart& chart) {
+  std::string text;
+  for (const Series& series : chart.series) {
+    if (series.points.empty() || series.name.starts_with("promised")) continue;
+    text += (text.empty() ? "The longest: " : "; ") + series.name + " " +
+            Rounded(series.points.back().x) + " ms";
+  }
+  return text.empty() ? "" : text + ".";
+}
+
 /// The share of take-overs that were heard of in so long, a curve for each fault.
 Chart TakeOverChart(const v1::Results& results) {
   Chart chart;
@@ -88,7 +99,6 @@ Chart TakeOverChart(const v1::Results& results) {
   chart.x_label = "from the fault to the first status of the other service [ms]";
   chart.y_label = "take-overs heard of by then [%]";
   chart.log_y = false;
-  chart.caption = "Real programs, each on a host of its own. The upright line is what is promised.";
   double promised_ms = 0;
   for (const Row* row : Select(results, "network", {{"group", "take-over"}})) {
     const auto found = row->fields().find("take_over_ms");
@@ -105,10 +115,13 @@ Chart TakeOverChart(const v1::Results& results) {
   }
   if (promised_ms > 0) {
     Series promise;
-    promise.name = "the lease + 50 ms";
+    promise.name = "promised: the lease + 50 ms";
     promise.points = {{promised_ms, 0.0, ""}, {promised_ms, 100.0, ""}};
     chart.series.push_back(promise);
   }
+  chart.caption =
+      "Real programs, each on a host of its own; left of the upright line is what is promised. " +
+      Longest(chart);
   return chart;
 }
 

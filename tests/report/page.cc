@@ -1,32 +1,17 @@
 #include "tests/report/page.h"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "tests/report/first_plots.h"
+#include "tests/report/page_frame.h"
 #include "tests/report/promises.h"
 #include "tests/report/results.h"
 #include "tests/report/text.h"
+#include "tests/report/verdict.h"
 
 namespace collision::report {
 namespace {
-
-constexpr char kStyle[] = R"(
-body { font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; margin: 0 auto;
-       padding: 0 1rem 4rem; max-width: 62rem; }
-h1 { margin-bottom: 0; } h2 { margin-top: 3rem; border-top: 1px solid #ccc; padding-top: 1rem; }
-nav a { display: inline-block; margin-right: 1rem; }
-.charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(26rem, 100%), 1fr));
-          gap: 1.5rem; }
-figure { margin: 0; } figure img { width: 100%; height: auto; }
-figcaption { font-size: 0.9rem; } figcaption ul { margin: 0.3rem 0 0; padding-left: 1.2rem; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 0.85rem; margin: 0.5rem 0; }
-th, td { text-align: left; vertical-align: top; padding: 0.15rem 0.6rem 0.15rem 0;
-         border-bottom: 1px solid #eee; font-variant-numeric: tabular-nums; }
-.bad { color: #b00020; font-weight: 600; } .small { font-size: 0.85rem; color: #555; }
-summary { cursor: pointer; }
-@media print { nav { display: none; } h2 { break-after: avoid; } figure { break-inside: avoid; }
-               .wide { overflow: visible; } body { max-width: none; font-size: 11px; } }
-)";
 
 constexpr char kBegin[] = "<!-- report: begin -->\n";
 constexpr char kEnd[] = "<!-- report: end -->";
@@ -53,10 +38,12 @@ std::string TableHtml(const Table& table) {
   return (table.title.empty() ? "" : "<h4>" + EscapeHtml(table.title) + "</h4>\n") + html;
 }
 
-std::string ChartHtml(const Chart& chart, const std::string& svg) {
-  std::string html = "<figure id=\"" + chart.id + "\"><h4>" + EscapeHtml(chart.title) + "</h4>\n";
+/// `heading` stands above the plot, `more` behind its caption.
+std::string ChartHtml(const Chart& chart, const std::string& svg, const std::string& heading,
+                      const std::string& more = "") {
+  std::string html = "<figure id=\"" + chart.id + "\">" + heading;
   html += "<img alt=\"" + EscapeHtml(chart.title) + "\" src=\"data:image/svg+xml;base64," +
-          Base64(svg) + "\">\n<figcaption>" + EscapeHtml(chart.caption);
+          Base64(svg) + "\">\n<figcaption>" + EscapeHtml(chart.caption) + more;
   std::string limits;
   for (const Series& series : chart.series) {
     if (series.limited_by.empty()) continue;
@@ -70,7 +57,7 @@ std::string ChartHtml(const Chart& chart, const std::string& svg) {
 
 std::string MachineHtml(const v1::Results& results) {
   const v1::Machine& machine = results.machine();
-  Table table{"The machine and the programs", {"", ""}, {}, true};
+  Table table{"", {"", ""}, {}};
   const auto add = [&](const char* name, const std::string& value) {
     if (!value.empty()) table.rows.push_back({name, value});
   };
@@ -95,20 +82,23 @@ std::string MachineHtml(const v1::Results& results) {
 }
 
 std::string PromisesHtml(const v1::Results& results) {
-  Table table{"", {"promise", "experiment", "measured", "at most", "kept"}, {}, true};
-  std::size_t kept = 0;
+  Table table{"", {"promise", "experiment", "measured", "at most", "kept"}, {}};
   for (const PromiseLine& line : PromisesOf(results)) {
     table.rows.push_back({line.words, line.experiment, line.measured, Short(line.at_most),
                           line.kept ? "yes" : "NO"});
-    kept += line.kept;
   }
-  table.title = "Promises: " + std::to_string(kept) + " of " + std::to_string(table.rows.size()) +
-                " kept, beside those of the stiff and extreme cases";
   return table.rows.empty() ? "" : TableHtml(table);
 }
 
+std::string PromisesTitle(const v1::Results& results) {
+  const std::vector<PromiseLine> lines = PromisesOf(results);
+  const auto kept = std::count_if(lines.begin(), lines.end(), [](const auto& l) { return l.kept; });
+  return "Counts that must hold on any machine: " + std::to_string(kept) + " of " +
+         std::to_string(lines.size()) + " kept";
+}
+
 std::string ComparisonHtml(const Comparison& comparison) {
-  std::string html = "<h2 id=\"compare\">What moved</h2>\n";
+  std::string html;
   for (const std::string& remark : comparison.remarks) html += Paragraph(remark);
   Table table{"", {"experiment", "figure", "before", "after", "change", "noise", "over noise"}, {}};
   Table still = table;
@@ -126,40 +116,126 @@ std::string ComparisonHtml(const Comparison& comparison) {
   return html + (table.rows.empty() ? Paragraph("Nothing.") : TableHtml(table)) + TableHtml(still);
 }
 
+/// One line of the verdict; on a narrow screen each cell stands below the one before, with the
+/// column's title.
+std::string VerdictRow(const VerdictLine& line) {
+  const char* kind = line.verdict == Verdict::kKept     ? "kept"
+                     : line.verdict == Verdict::kMissed ? "missed"
+                                                        : "unknown";
+  const auto cell = [](const char* title, const std::string& text) {
+    return std::string("<td data-title=\"") + title + "\">" + EscapeHtml(text) + "</td>";
+  };
+  return std::string("<tr class=\"") + kind + "\"><th scope=\"row\">" + EscapeHtml(line.asked) +
+         "</th>" + cell("asked", line.bound) + cell("measured", line.measured) +
+         cell("verdict", line.words) + cell("beaten by", line.beaten_by) + "</tr>\n";
+}
+
+std::string VerdictHtml(const v1::Results& results) {
+  const std::vector<VerdictLine> lines = VerdictsOf(results);
+  std::string html = "<h2 id=\"verdict\">Verdict: " + EscapeHtml(SummaryOf(lines)) +
+                     "</h2>\n<table class=\"verdict\"><thead><tr><th>question</th><th>asked"
+                     "</th><th>measured</th><th>verdict</th><th>beaten by</th></tr></thead>\n";
+  std::string group;
+  for (const VerdictLine& line : lines) {
+    if (line.group != group) {
+      html += (group.empty() ? "<tbody>" : "</tbody><tbody>") +
+              std::string("<tr><th class=\"group\" colspan=\"5\" scope=\"rowgroup\">") +
+              EscapeHtml(line.group) + "</th></tr>\n";
+      group = line.group;
+    }
+    html += VerdictRow(line);
+  }
+  return html + "</tbody></table>\n";
+}
+
+std::string FirstPlotsHtml(const std::vector<FirstPlot>& plots,
+                           const std::map<std::string, std::string>& pictures) {
+  std::string html = "<h2 id=\"plots\">Five plots</h2>\n<div class=\"charts\">\n";
+  for (const FirstPlot& plot : plots) {
+    const std::string heading = "<h3>" + EscapeHtml(plot.title) + "</h3>\n";
+    if (plot.chart.empty()) {
+      html += "<figure>" + heading + "<p class=\"small\">Not measured in this run.</p></figure>\n";
+      continue;
+    }
+    html += ChartHtml(plot.chart, pictures.at(plot.chart.id), heading,
+                      " <a href=\"#" + plot.section + "\">More of it.</a>");
+  }
+  return html + "</div>\n";
+}
+
+/// What unfolds under its title; links to `id` unfold it.
+std::string Folded(const std::string& id, const std::string& title, const std::string& html) {
+  return "<details class=\"part\" id=\"" + id + "\"><summary>" + EscapeHtml(title) +
+         "</summary>\n" + html + "</details>\n";
+}
+
+std::string SectionHtml(const Section& section,
+                        const std::map<std::string, std::string>& pictures) {
+  std::string html;
+  for (const std::string& text : section.paragraphs) html += Paragraph(text);
+  html += "<div class=\"charts\">\n";
+  for (const Chart& chart : section.charts) {
+    html += ChartHtml(chart, pictures.at(chart.id), "<h4>" + EscapeHtml(chart.title) + "</h4>\n");
+  }
+  html += "</div>\n";
+  for (const Table& table : section.tables) html += TableHtml(table);
+  return html;
+}
+
+/// "Error against run time: 12 plots, 3 tables"
+std::string TitleOf(const Section& section) {
+  const auto counted = [](std::size_t count, const char* what) {
+    return count == 0 ? "" : ", " + std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+  };
+  if (section.charts.empty() && section.tables.empty()) return section.title + ", not measured";
+  return section.title + counted(section.charts.size(), "plot") +
+         counted(section.tables.size(), "table");
+}
+
+std::string Intro(const v1::Results& results) {
+  std::string html =
+      "<h1>collisiond, measured</h1>\n<p>collisiond tells simulators in advance which of their "
+      "agents could touch, and afterwards which did. This page says what was asked of it, what was "
+      "measured, and which other program does better.</p>\n<p class=\"small\">" +
+      EscapeHtml(results.finished()) +
+      (results.quick() ? ", a quick run: fewer cells and repetitions" : "") + "; " +
+      EscapeHtml(results.machine().processor()) + "; equal work took times that differ by " +
+      Rounded(100 * NoiseOf(results)) +
+      " % during the run. Compare times of one page only: they depend on the machine.</p>\n";
+  for (const std::string& broken : BrokenIn(results)) {
+    html += "<p class=\"bad\">" + EscapeHtml(broken) + "</p>\n";
+  }
+  return html;
+}
+
 }  // namespace
 
 std::string PageOf(const v1::Results& results, const std::vector<Section>& sections,
                    const std::map<std::string, std::string>& pictures,
                    const Comparison* comparison) {
-  std::string html =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>collisiond: error against run time</title>\n<style>" +
-      std::string(kStyle) + "</style></head><body>\n<h1>collisiond: error against run time</h1>\n";
-  html += "<p class=\"small\">" + EscapeHtml(results.finished()) +
-          (results.quick() ? ", a quick run: fewer cells and repetitions" : "") + "; " +
-          EscapeHtml(results.machine().processor()) + "; equal work took times that differ by " +
-          Short(100 * NoiseOf(results)) +
-          " % during the run. No absolute time is a result.</p>\n<nav>";
+  struct Part {
+    std::string id, title, link, html;
+  };
+  std::vector<Part> parts;
+  if (comparison != nullptr) {
+    parts.push_back({"compare", "What moved since the older report", "What moved",
+                     ComparisonHtml(*comparison)});
+  }
   for (const Section& section : sections) {
-    html += "<a href=\"#" + section.id + "\">" + EscapeHtml(section.title) + "</a>";
+    parts.push_back({section.id, TitleOf(section), section.title, SectionHtml(section, pictures)});
   }
-  html += "</nav>\n";
-  for (const std::string& broken : BrokenIn(results)) {
-    html += "<p class=\"bad\">" + EscapeHtml(broken) + "</p>\n";
+  parts.push_back({"promises", PromisesTitle(results), "Promises", PromisesHtml(results)});
+  parts.push_back({"machine", "Where and how: the machine, the versions and the commands",
+                   "Where and how", MachineHtml(results)});
+  std::string links, folded;
+  for (const Part& part : parts) {
+    links += "<a href=\"#" + part.id + "\">" + EscapeHtml(part.link) + "</a> ";
+    folded += Folded(part.id, part.title, part.html);
   }
-  html += PromisesHtml(results);
-  if (comparison != nullptr) html += ComparisonHtml(*comparison);
-  for (const Section& section : sections) {
-    html += "<h2 id=\"" + section.id + "\">" + EscapeHtml(section.title) + "</h2>\n";
-    for (const std::string& text : section.paragraphs) html += Paragraph(text);
-    html += "<div class=\"charts\">\n";
-    for (const Chart& chart : section.charts) html += ChartHtml(chart, pictures.at(chart.id));
-    html += "</div>\n";
-    for (const Table& table : section.tables) html += TableHtml(table);
-  }
-  return html + "<h2 id=\"machine\">Where and how</h2>\n" + MachineHtml(results) +
-         "</body></html>\n";
+  return std::string(kPageHead) + Intro(results) + VerdictHtml(results) +
+         FirstPlotsHtml(FirstPlotsOf(sections), pictures) +
+         "<h2 id=\"rest\">Everything else</h2>\n<nav>" + links +
+         "<button type=\"button\" id=\"unfold\">unfold all</button></nav>\n" + folded + kPageEnd;
 }
 
 std::string WithPlots(const std::string& page, const v1::Results& results,

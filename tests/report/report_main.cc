@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/report/compare.h"
+#include "tests/report/first_plots.h"
 #include "tests/report/page.h"
 #include "tests/report/promises.h"
 #include "tests/report/results.h"
@@ -32,11 +33,15 @@ std::vector<std::string> Write(const Options& options) {
   WriteFile(options.out + "/results.json", ToJson(results));
   const std::vector<Section> sections = SectionsOf(results);
   std::map<std::string, std::string> pictures;
+  const auto draw = [&](const Chart& chart) {
+    WriteFile(options.out + "/" + chart.id + ".csv", Csv(chart));
+    pictures[chart.id] = Draw(chart, options.out);
+  };
   for (const Section& section : sections) {
-    for (const Chart& chart : section.charts) {
-      WriteFile(options.out + "/" + chart.id + ".csv", Csv(chart));
-      pictures[chart.id] = Draw(chart, options.out);
-    }
+    for (const Chart& chart : section.charts) draw(chart);
+  }
+  for (const FirstPlot& plot : FirstPlotsOf(sections)) {
+    if (!plot.chart.empty()) draw(plot.chart);
   }
   WriteFile(options.out + "/index.html",
             PageOf(results, sections, pictures, comparison ? &*comparison : nullptr));

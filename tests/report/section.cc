@@ -1,15 +1,28 @@
 #include "tests/report/section.h"
 
+#include <cctype>
 #include <utility>
 
 #include "tests/report/chart_rows.h"
+#include "tests/report/contestants.h"
 #include "tests/report/rows.h"
 #include "tests/report/text.h"
 
 namespace collision::report {
 
+std::string IdOf(const std::string& text) {
+  std::string id;
+  for (const char c : text) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (plain || (!id.empty() && id.back() != '-')) id += plain ? c : '-';
+  }
+  return id;
+}
+
 void AddChart(Chart chart, Section* section) {
-  if (!chart.empty()) section->charts.push_back(std::move(chart));
+  if (chart.empty()) return;
+  DrawByContestant(&chart);
+  section->charts.push_back(std::move(chart));
 }
 
 void AddTable(Table table, Section* section) {

@@ -18,7 +18,10 @@ struct Section {
   std::vector<Table> tables;
 };
 
-/// Adds the chart if anything was measured for it.
+/// What a file may be called, made of the text's letters.
+std::string IdOf(const std::string& text);
+
+/// Adds the chart if anything was measured for it. Each contestant looks the same in all charts.
 void AddChart(Chart chart, Section* section);
 
 /// Adds the table if it has rows.

@@ -1,12 +1,13 @@
 #include "tests/report/sections.h"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 
+#include "tests/report/captions.h"
 #include "tests/report/chart_rows.h"
+#include "tests/report/contestants.h"
+#include "tests/report/hubbard.h"
 #include "tests/report/load_and_faults.h"
 #include "tests/report/text.h"
 
@@ -15,19 +16,10 @@ namespace {
 
 const std::vector<std::string> kOurs = {"ours"};
 
-/// What a file may be called.
-std::string IdOf(const std::string& text) {
-  std::string id;
-  for (const char c : text) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
-    if (plain || (!id.empty() && id.back() != '-')) id += plain ? c : '-';
-  }
-  return id;
-}
-
 /// The plots of one part of the benchmark of precision.
 struct PrecisionPlots {
-  std::string part, id, what, y_label;
+  std::string part, id, what, y_label, unit;
+  double floor;  ///< Errors below it are rounding.
 };
 
 /// A plot for each motion and pair of bodies.
@@ -42,13 +34,13 @@ void AddPrecision(const v1::Results& results, const PrecisionPlots& plots, Secti
       chart.id = id + "-" + motion + "-" + IdOf(mesh);
       chart.title = what + ", " + motion + ": " + mesh;
       chart.x_label = "time of a query [s]", chart.y_label = y_label;
+      chart = ChartOf(
+          chart, Select(results, "precision", {{"part", part}, {"motion", motion}, {"mesh", mesh}}),
+          {{"method"}, "seconds", "width", 1, 1, kOurs, "error"});
       chart.caption =
-          "Lower and further left is better. Curves of ours: the width that is certified.";
-      AddChart(ChartOf(chart,
-                       Select(results, "precision",
-                              {{"part", part}, {"motion", motion}, {"mesh", mesh}}),
-                       {{"method"}, "seconds", "width", 1, 1, kOurs, "error"}),
-               section);
+          "Lower and further left is better. Curves of ours: the width that is certified. " +
+          MostExact(chart, plots.floor, plots.unit);
+      AddChart(chart, section);
     }
   }
 }
@@ -59,8 +51,12 @@ Section Precision(const v1::Results& results) {
       "How wide the certified bracket is (ours), or how far from the truth the answer is (theirs), "
       "over the time of one query. A cross on the upper edge: answers that say no where the truth "
       "is yes, or yes where it is no; no time makes up for that."};
-  AddPrecision(results, {"precision", "distance", "Distance", "width or error [m]"}, &section);
-  AddPrecision(results, {"contact", "contact", "Time of contact", "width or error [s]"}, &section);
+  AddPrecision(results,
+               {"precision", "distance", "Distance", "width or error [m]", "m", kDistanceFloor},
+               &section);
+  AddPrecision(results,
+               {"contact", "contact", "Time of contact", "width or error [s]", "s", kContactFloor},
+               &section);
   AddWhole(results, "precision", &section);
   return section;
 }
@@ -71,145 +67,24 @@ Section Budget(const v1::Results& results) {
       "What the service may spend on a pair in a turn, against how wide its answers are and how "
       "many "
       "pairs stay undecided. Nothing is ever missed for lack of budget: brackets become wider."};
-  const auto rows = Select(results, "budget", {});
+  const std::vector<Row> rows = Renamed(Select(results, "budget", {}), "kind",
+                                        [](const std::string& kind) { return "ours: " + kind; });
   const auto chart = [&](const char* id, const char* title, const char* y_label, const char* field,
-                         double factor, bool log_y) {
+                         double factor, const char* unit) {
     Chart made;
     made.id = id, made.title = title, made.x_label = "budget [µs]", made.y_label = y_label;
-    made.log_y = log_y;
-    AddChart(ChartOf(made, rows, {{"kind"}, "budget_us", field, 1, factor, {"a pair", "a step"}}),
-             &section);
+    made.log_y = std::string(unit) != "%";
+    made = ChartOf(made, Pointers(rows), {{"kind"}, "budget_us", field, 1, factor, kOurs});
+    made.caption = "More time, narrower answers; from the least budget to the greatest: " +
+                   FirstToLast(made, unit);
+    AddChart(made, &section);
   };
-  chart("budget-begin", "Begin bracket, median", "width [ms]", "begin_width_p50_s", 1e3, true);
+  chart("budget-begin", "Begin bracket, median", "width [ms]", "begin_width_p50_s", 1e3, "ms");
   chart("budget-depth", "Separation bracket, median", "width [m]", "separation_width_p50_m", 1,
-        true);
+        "m");
   chart("budget-undecided", "Undecided events", "share of all closed [%]", "undecided_share", 100,
-        false);
+        "%");
   AddWhole(results, "budget", &section);
-  return section;
-}
-
-/// A curve for each method from a field that is a list: one value a step.
-Chart SeriesChart(Chart chart, const std::vector<const Row*>& rows, const std::string& field) {
-  for (const Row* row : rows) {
-    const auto found = row->fields().find(field);
-    if (found == row->fields().end() || !found->second.has_list_value()) continue;
-    Series series;
-    series.name = TextOf(*row, "method");
-    series.ours = series.name.starts_with("horns and sphere");
-    for (const auto& value : found->second.list_value().values()) {
-      series.points.push_back(
-          {static_cast<double>(series.points.size()), value.number_value(), ""});
-    }
-    chart.series.push_back(series);
-  }
-  return chart;
-}
-
-/// Without the second loop of ours; whatever its cell, Turk's hash is one contestant.
-std::vector<Row> ByTurkOrOurs(const std::vector<const Row*>& rows) {
-  std::vector<Row> shown;
-  for (const Row* row : rows) {
-    const std::string who = TextOf(*row, "contestant");
-    if (who.starts_with("local loop")) continue;
-    shown.push_back(*row);
-    (*shown.back().mutable_fields())["contestant"].set_string_value(
-        who.starts_with("Turk") ? "Turk's hash" : "ours");
-  }
-  return shown;
-}
-
-/// A curve for each density.
-Chart TurkOverOurs(const v1::Results& results) {
-  Chart chart;
-  chart.id = "turk-over-ours", chart.title = "Turk's time over ours, until the first collision";
-  chart.x_label = "cubes", chart.y_label = "Turk's time over ours", chart.log_y = false;
-  chart.caption = "Above 1 ours is faster. The paper states: only just above 1.";
-  for (const std::string& scene : TextsOf(Select(results, "turk", {}), "scene")) {
-    Series series;
-    series.name = scene;
-    for (const Row* ours : Select(results, "turk", {{"scene", scene}, {"contestant", "window*"}})) {
-      const auto count = NumberOf(*ours, "agents"), own = NumberOf(*ours, "seconds");
-      for (const Row* turk : Select(results, "turk", {{"scene", scene}, {"contestant", "Turk*"}})) {
-        const auto theirs = NumberOf(*turk, "seconds");
-        if (!count || !own || !theirs || NumberOf(*turk, "agents") != count) continue;
-        series.points.push_back({*count, *theirs / *own, ""});
-      }
-    }
-    std::sort(series.points.begin(), series.points.end(),
-              [](const Point& a, const Point& b) { return a.x < b.x; });
-    if (!series.points.empty()) chart.series.push_back(series);
-  }
-  return chart;
-}
-
-Section Hubbard(const v1::Results& results) {
-  Section section{"hubbard", "Hubbard's experiments", {}, {}, {}};
-  section.paragraphs = {
-      "The experiments of the paper, made anew with its baselines. It states: in the broad phase, "
-      "Turk's time over ours is only just above 1; our slowest frames are slower than Turk's, "
-      "though "
-      "rarely; both phases together are 5 to 7 times faster than Turk's hash with BSP trees. No "
-      "other "
-      "number of it is quoted here."};
-  AddChart(TurkOverOurs(results), &section);
-  const auto rows = Select(results, "turk", {{"contestant", "!local loop, chosen"}});
-  for (const auto& [density, id] :
-       std::vector<std::pair<const char*, const char*>>{{"cubes 0.01 %", "turk-0.01"},
-                                                        {"cubes 0.1 %", "turk-0.1"},
-                                                        {"cubes 1 %", "turk-1"},
-                                                        {"cubes 10 %", "turk-10"}}) {
-    Chart chart;
-    chart.id = id, chart.title = std::string("Broad phase until the first collision, ") + density;
-    chart.x_label = "cubes", chart.y_label = "time of all frames [s]";
-    chart.caption =
-        "Turk's hash in its best cell; density is the share of the volume that is full.";
-    const std::vector<Row> shown = ByTurkOrOurs(Select(results, "turk", {{"scene", density}}));
-    std::vector<const Row*> of_density;
-    for (const Row& row : shown) of_density.push_back(&row);
-    AddChart(ChartOf(chart, of_density, {{"contestant"}, "agents", "seconds", 1, 1, kOurs}),
-             &section);
-  }
-  AddTable(TableOf("Each configuration, with its slowest frame", rows,
-                   {{"scene", "scene"},
-                    {"agents", "cubes"},
-                    {"contestant", "who"},
-                    {"seconds", "all frames"},
-                    {"slowest_frame_s", "slowest frame"},
-                    {"frames", "frames"}}),
-           &section);
-  AddTable(TableOf("The narrow phase alone, the spaceship simulator's pair tests",
-                   Select(results, "hubbard", {{"part", "narrow"}}),
-                   {{"scene", "scene"},
-                    {"method", "method"},
-                    {"tests", "pair tests"},
-                    {"seconds", "one, median"},
-                    {"slowest_s", "slowest"},
-                    {"wrong", "wrong"}}),
-           &section);
-  for (const std::string& scene :
-       TextsOf(Select(results, "hubbard", {{"part", "both"}}), "scene")) {
-    Chart frames;
-    frames.id = "frames-" + IdOf(scene), frames.title = "Time of each frame, both phases: " + scene;
-    frames.x_label = "frame", frames.y_label = "time [s]", frames.log_x = false;
-    frames.caption = "The slowest frames stand out; each is the least of several identical runs.";
-    AddChart(SeriesChart(frames, Select(results, "hubbard", {{"part", "both"}, {"scene", scene}}),
-                         "frame_series_s"),
-             &section);
-  }
-  AddTable(TableOf("Both phases together in the spaceship simulator",
-                   Select(results, "hubbard", {{"part", "both"}}),
-                   {{"scene", "scene"},
-                    {"method", "method"},
-                    {"total_s", "all frames"},
-                    {"frame_p50_s", "median frame"},
-                    {"frame_p99_s", "p99"},
-                    {"slowest_frame_s", "slowest frame"},
-                    {"contacts", "contacts"},
-                    {"frames_that_differ", "frames that differ"}}),
-           &section);
-  AddWhole(results, "turk", &section);
-  AddWhole(results, "hubbard", &section);
   return section;
 }
 
@@ -236,11 +111,14 @@ Section Stepping(const v1::Results& results) {
   shrunk.id = "satellites", shrunk.title = "The satellites' contact, made shorter";
   shrunk.x_label = "length of the contact [s]", shrunk.y_label = "found (1) or missed (0)";
   shrunk.log_y = false;
+  const std::vector<Row> rows =
+      Renamed(Select(results, "stepping", {{"part", "shrunk"}}), "method",
+              [](const std::string& m) { return m == "60 Hz" ? "stepping at 60 Hz" : m; });
+  shrunk = ChartOf(shrunk, Pointers(rows), {{"method"}, "contact_s", "found", 1, 1, kOurs});
   shrunk.caption =
-      "Keep-out spheres shrunk until a loop of 60 frames a second misses their meeting.";
-  AddChart(ChartOf(shrunk, Select(results, "stepping", {{"part", "shrunk"}}),
-                   {{"method"}, "contact_s", "found", 1, 1, kOurs}),
-           &section);
+      "Keep-out spheres shrunk until a loop of 60 frames a second misses their meeting: contacts "
+      "shorter than a frame are found by chance.";
+  AddChart(shrunk, &section);
   AddWhole(results, "stepping", &section);
   return section;
 }
@@ -264,29 +142,46 @@ void NameGrowth(Chart* chart) {
   }
 }
 
+/// Ours is what the scene's profile chooses; the other methods of ours are variants of it.
+std::string OursByName(const std::string& contestant) {
+  if (contestant == "chosen") return "ours";
+  const bool variant =
+      contestant == "all-pairs" || contestant == "face-sweep" || contestant == "spatial-index";
+  return variant ? "ours: " + contestant : contestant;
+}
+
+/// Time against agents, a curve for each contestant; the exponents stand behind their names.
+void AddGrowth(Chart chart, const std::vector<const Row*>& measured, Section* section) {
+  const std::vector<Row> rows = Renamed(measured, "contestant", OursByName);
+  chart = ChartOf(chart, Pointers(rows), {{"contestant"}, "agents", "seconds", 1, 1, {"ours"}});
+  for (Series& series : chart.series) series.ours = series.name == "ours";
+  chart.caption = "Lower is better; N^x is how the time grows with the agents. " +
+                  TimesAtTheEnd(chart, "agents");
+  DrawByContestant(&chart);
+  NameGrowth(&chart);
+  AddChart(chart, section);
+}
+
 Section BroadPhase(const v1::Results& results) {
   Section section{"broad-phase", "Broad phase and streaming", {}, {}, {}};
   section.paragraphs = {
       "The earliest meeting of all, with every bound new, and with one bound new "
-      "at a time; ours includes certification and taking over the caller's data."};
+      "at a time; ours includes certification and taking over the caller's data. Ours is what the "
+      "scene's profile chooses: \"chosen\" in the tables."};
   for (const char* hit : {"at_once", "half", "never"}) {
     Chart chart;
     chart.id = std::string("scratch-") + hit;
     chart.title = std::string("From scratch, first hit: ") + hit;
     chart.x_label = "agents", chart.y_label = "time of a query [s]";
-    AddChart(ChartOf(chart,
-                     Select(results, "broad-phase",
-                            {{"part", "scratch"}, {"scene", std::string("uniform ") + hit}}),
-                     {{"contestant"}, "agents", "seconds", 1, 1, {"chosen"}}),
-             &section);
+    AddGrowth(chart,
+              Select(results, "broad-phase",
+                     {{"part", "scratch"}, {"scene", std::string("uniform ") + hit}}),
+              &section);
   }
   Chart streaming;
   streaming.id = "streaming", streaming.title = "One bound renewed, earliest of all kept current";
   streaming.x_label = "agents", streaming.y_label = "time of an update [s]";
-  AddChart(ChartOf(streaming, Select(results, "streaming", {{"part", "incremental"}}),
-                   {{"contestant"}, "agents", "seconds", 1, 1, {"chosen"}}),
-           &section);
-  for (Chart& chart : section.charts) NameGrowth(&chart);
+  AddGrowth(streaming, Select(results, "streaming", {{"part", "incremental"}}), &section);
   for (const char* name : {"broad-phase", "streaming", "special-scenes"}) {
     AddWhole(results, name, &section);
   }
@@ -297,17 +192,26 @@ Section Service(const v1::Results& results) {
   Section section{"service", "The service beside raw DDS", {}, {}, {}};
   section.paragraphs = {
       "From a simulator's update to the event it causes, beside a daemon of the same bus code that "
-      "does nothing but answer; and how many messages a fixed stream would need for the same."};
-  const auto rows = Select(results, "service", {{"part", "latency"}});
-  const auto beside = [&](const char* id, const char* title, const char* y_label,
-                          const char* field) {
+      "does nothing but answer (\"network\" in the tables); and how many messages a fixed stream "
+      "would need for the same."};
+  const std::vector<Row> rows =
+      Renamed(Select(results, "service", {{"part", "latency"}}), "contestant",
+              [](const std::string& who) { return who == "network" ? "no-op program" : who; });
+  const auto beside = [&](const char* id, const char* title, const char* y_label, const char* field,
+                          bool times) {
     Chart chart;
     chart.id = id, chart.title = title, chart.x_label = "agents", chart.y_label = y_label;
-    AddChart(ChartOf(chart, rows, {{"contestant"}, "agents", field, 1, 1, kOurs}), &section);
+    chart = ChartOf(chart, Pointers(rows), {{"contestant"}, "agents", field, 1, 1, kOurs});
+    chart.caption =
+        "The no-op program does nothing but answer, so nothing can be faster on this network. " +
+        (times ? TimesAtTheEnd(chart, "agents")
+               : RatesAtTheEnd(chart, "agents", "updates a second"));
+    AddChart(chart, &section);
   };
-  beside("service-event", "Update to event", "median [s]", "event_p50_s");
-  beside("service-event-p99", "Update to event, the slowest hundredth", "p99 [s]", "event_p99_s");
-  beside("service-throughput", "Updates a second", "updates a second", "updates_per_s");
+  beside("service-event", "Update to event", "median [s]", "event_p50_s", true);
+  beside("service-event-p99", "Update to event, the slowest hundredth", "p99 [s]", "event_p99_s",
+         true);
+  beside("service-throughput", "Updates a second", "updates a second", "updates_per_s", false);
   for (const auto& [sweep, field, label] :
        {std::array<const char*, 3>{"acceleration", "acceleration_max_m_s2",
                                    "greatest acceleration [m/s²]"},
@@ -317,11 +221,16 @@ Section Service(const v1::Results& results) {
     saved.id = std::string("messages-") + sweep;
     saved.title = std::string("States of a fixed stream for one of ours, over ") + sweep;
     saved.x_label = label, saved.y_label = "ratio";
-    AddChart(ChartOf(saved,
-                     Select(results, "service",
-                            {{"part", "messages"}, {"sweep", sweep + std::string("=*")}}),
-                     {{"part"}, field, "ratio"}),
-             &section);
+    saved = ChartOf(
+        saved,
+        Select(results, "service", {{"part", "messages"}, {"sweep", sweep + std::string("=*")}}),
+        {{"part"}, field, "ratio"});
+    for (Series& series : saved.series) series.name = "ours", series.ours = true;
+    saved.caption =
+        "How many states a stream of 60 a second sends for each one that ours asks for; from left "
+        "to right: " +
+        FirstToLast(saved, "");
+    AddChart(saved, &section);
   }
   AddWhole(results, "service", &section);
   return section;

@@ -29,6 +29,23 @@ std::string Short(double value) {
   return text;
 }
 
+std::string Rounded(double value, int digits) {
+  const double size = std::abs(value);
+  if (size >= std::pow(10, digits) && size < kWholeMax) {
+    const double step = std::pow(10, std::floor(std::log10(size)) + 1 - digits);
+    return Grouped(std::round(value / step) * step);
+  }
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+std::string Grouped(double value) {
+  std::string text = Print("%.0f", value);
+  for (std::size_t at = text.size(); at > 3 + (value < 0 ? 1 : 0);) text.insert(at -= 3, ",");
+  return text;
+}
+
 std::string Duration(double seconds) {
   if (seconds >= 60) {
     const auto whole = static_cast<long long>(std::llround(seconds));
@@ -61,16 +78,6 @@ std::string EscapeHtml(const std::string& text) {
     }
   }
   return escaped;
-}
-
-std::string CsvCell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
 }
 
 std::string Base64(const std::string& bytes) {

@@ -7,12 +7,14 @@ namespace collision::report {
 
 /// At most four significant digits: "12.3", "1.2e-07", "166000".
 std::string Short(double value);
+/// For a sentence, so many significant digits: "2.13", "1e-07", "35,100".
+std::string Rounded(double value, int digits = 3);
+/// A count: "166,000".
+std::string Grouped(double value);
 /// "12 ns", "3.4 µs", "1.2 s", "2 min 5 s".
 std::string Duration(double seconds);
 
 std::string EscapeHtml(const std::string& text);
-/// Between quotes where commas or quotes ask for it.
-std::string CsvCell(const std::string& text);
 std::string Base64(const std::string& bytes);
 
 /// Throw std::runtime_error that names the file.
