@@ -6,6 +6,10 @@
 #include "tests/report/text.h"
 
 namespace collision::report {
+
+using chart::Chart;
+using chart::Point;
+using chart::Series;
 namespace {
 
 bool IsOurs(const Series& series) { return ContestantOf(series.name) == "ours"; }
@@ -26,7 +30,7 @@ std::optional<double> HeightAt(const Series& series, double x) {
 /// Ours is the thick curve; variants of ours compete with nobody.
 std::optional<double> OursAt(const Chart& chart, double x) {
   for (const Series& series : chart.series) {
-    if (IsOurs(series) && series.ours) return HeightAt(series, x);
+    if (IsOurs(series) && series.thick) return HeightAt(series, x);
   }
   return std::nullopt;
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/report/chart.h"
+#include "client/programs/chart/chart.h"
 
 namespace collision::report {
 
@@ -26,25 +26,26 @@ struct EqualError {
 
 /// One for each right answer of a library that ours certifies as narrowly. x is the time of a query
 /// [s], y the error; errors below `floor` are rounding, and count as it.
-std::vector<EqualError> AtEqualError(const Chart& chart, double floor);
+std::vector<EqualError> AtEqualError(const chart::Chart& chart, double floor);
 
 /// "FCL comes within 1e-06 m in 3 µs; ours certifies as much in 1 µs. Wrong at times (crosses):
 /// Bullet." `unit` is that of the error.
-std::string MostExact(const Chart& chart, double floor, const std::string& unit);
+std::string MostExact(const chart::Chart& chart, double floor, const std::string& unit);
 
 /// "With 100,000 agents ours takes 25 ms and the best other, Bullet, 50 ms: that takes 2 times as
 /// long." At the greatest x that ours shares with another contestant; y is a time [s].
-std::string TimesAtTheEnd(const Chart& chart, const std::string& of_x);
+std::string TimesAtTheEnd(const chart::Chart& chart, const std::string& of_x);
 
 /// "With 10,000 agents ours manages 20,000 updates a second and the no-op program 100,000: ours
 /// reaches 0.2 of it."
-std::string RatesAtTheEnd(const Chart& chart, const std::string& of_x, const std::string& of_y);
+std::string RatesAtTheEnd(const chart::Chart& chart, const std::string& of_x,
+                          const std::string& of_y);
 
 /// "The slowest frame of each: ours 3 ms; Turk, cell 4 m 1 ms."
-std::string Slowest(const Chart& chart);
+std::string Slowest(const chart::Chart& chart);
 
 /// "ours 11 to 0.06 ms; Bullet 12 to 3 ms.": the first point and the last of each series, without
 /// the name of an only one.
-std::string FirstToLast(const Chart& chart, const std::string& unit);
+std::string FirstToLast(const chart::Chart& chart, const std::string& unit);
 
 }  // namespace collision::report

@@ -6,6 +6,10 @@
 #include "tests/report/text.h"
 
 namespace collision::report {
+
+using chart::Chart;
+using chart::Point;
+using chart::Series;
 namespace {
 
 bool IsDuration(const std::string& field) {
@@ -45,8 +49,8 @@ Series* SeriesOf(const std::string& name, const ChartFields& fields, Chart* char
   }
   Series series;
   series.name = name;
-  series.ours = std::any_of(fields.ours.begin(), fields.ours.end(),
-                            [&](const std::string& begin) { return name.starts_with(begin); });
+  series.thick = std::any_of(fields.ours.begin(), fields.ours.end(),
+                             [&](const std::string& begin) { return name.starts_with(begin); });
   chart->series.push_back(series);
   return &chart->series.back();
 }
@@ -64,8 +68,8 @@ Chart ChartOf(Chart chart, const std::vector<const Row*>& rows, const ChartField
     std::string name = TextOf(*row, fields.series);
     if (ours && !name.starts_with("ours")) name = "ours: " + name;
     Series* series = SeriesOf(name, fields, &chart);
-    series->ours |= ours;
-    if (series->limited_by.empty()) series->limited_by = TextOf(*row, "limited_by");
+    series->thick |= ours;
+    if (series->note.empty()) series->note = TextOf(*row, "limited_by");
     Point point{*x * fields.x_factor, std::nullopt, wrong.empty() ? given_up : wrong};
     if (y && wrong.empty()) point.y = *y * fields.y_factor;
     series->points.push_back(point);

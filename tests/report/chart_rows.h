@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/report/chart.h"
+#include "client/programs/chart/chart.h"
 #include "tests/report/rows.h"
 #include "tests/report/table.h"
 
@@ -23,7 +23,8 @@ struct ChartFields {
 /// whose field "who" is "ours" are drawn thicker, too. A row
 /// with "misses" or "false_alarms" above 0 becomes a cross at infinity, with what it missed as its
 /// note; so does one without y that was given up, noted as "> x s". `chart` brings the words.
-Chart ChartOf(Chart chart, const std::vector<const Row*>& rows, const ChartFields& fields);
+chart::Chart ChartOf(chart::Chart chart, const std::vector<const Row*>& rows,
+                     const ChartFields& fields);
 
 /// Copies of the rows with other texts in a field, for the charts' names.
 std::vector<Row> Renamed(const std::vector<const Row*>& rows, const std::string& field,

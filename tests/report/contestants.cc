@@ -5,6 +5,15 @@
 #include <utility>
 
 namespace collision::report {
+
+using chart::Chart;
+using chart::Colour;
+using chart::GiveLooks;
+using chart::HashOfName;
+using chart::kDashes;
+using chart::Look;
+using chart::Mark;
+using chart::Series;
 namespace {
 
 struct Contestant {

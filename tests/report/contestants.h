@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tests/report/chart.h"
+#include "client/programs/chart/chart.h"
 
 namespace collision::report {
 
@@ -16,6 +16,6 @@ std::string WithoutGrowth(const std::string& series);
 
 /// Gives the series of known contestants their colours and marks, and the dashes of their variants.
 /// All others get a look by their names. Series that have a look keep it.
-void DrawByContestant(Chart* chart);
+void DrawByContestant(chart::Chart* chart);
 
 }  // namespace collision::report

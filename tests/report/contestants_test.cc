@@ -12,6 +12,11 @@
 #include "tests/report/sections.h"
 
 namespace collision::report {
+
+using chart::Chart;
+using chart::kDashes;
+using chart::Look;
+using chart::Series;
 namespace {
 
 /// The charts of all sections and those at the top.

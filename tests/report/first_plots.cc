@@ -6,6 +6,9 @@
 #include "tests/report/contestants.h"
 
 namespace collision::report {
+
+using chart::Chart;
+using chart::Series;
 namespace {
 
 struct Choice {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/report/chart.h"
+#include "client/programs/chart/chart.h"
 #include "tests/report/section.h"
 
 namespace collision::report {
@@ -12,7 +12,7 @@ namespace collision::report {
 struct FirstPlot {
   std::string title;
   std::string section;  ///< The id of the section that has the rest.
-  Chart chart;          ///< Of ours only the usual variant. Empty: not measured.
+  chart::Chart chart;   ///< Of ours only the usual variant. Empty: not measured.
 };
 
 /// Always five, in their order.

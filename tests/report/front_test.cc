@@ -10,6 +10,8 @@
 #include "tests/report/verdict.h"
 
 namespace collision::report {
+
+using chart::Chart;
 namespace {
 
 VerdictLine LineOf(const v1::Results& results, const std::string& asked) {

@@ -10,6 +10,10 @@
 #include "tests/report/rows.h"
 
 namespace collision::report {
+
+using chart::Chart;
+using chart::Point;
+using chart::Series;
 namespace {
 
 const std::vector<std::string> kOurs = {"ours"};
@@ -22,7 +26,7 @@ Chart SeriesChart(Chart chart, const std::vector<const Row*>& rows, const std::s
     Series series;
     const std::string method = TextOf(*row, "method");
     series.name = method.starts_with("horns") ? "ours: " + method : method;
-    series.ours = method.starts_with("horns and sphere");
+    series.thick = method.starts_with("horns and sphere");
     for (const auto& value : found->second.list_value().values()) {
       series.points.push_back(
           {static_cast<double>(series.points.size()), value.number_value(), ""});

@@ -9,6 +9,9 @@
 #include "tests/report/text.h"
 
 namespace collision::report {
+
+using chart::Chart;
+using chart::Series;
 namespace {
 
 const std::vector<std::string> kPromised = {"what", "promised", "measured", "command", "kept"};

@@ -11,6 +11,9 @@
 #include "tests/report/verdict.h"
 
 namespace collision::report {
+
+using chart::Chart;
+using chart::Series;
 namespace {
 
 constexpr char kBegin[] = "<!-- report: begin -->\n";
@@ -46,8 +49,8 @@ std::string ChartHtml(const Chart& chart, const std::string& svg, const std::str
           Base64(svg) + "\">\n<figcaption>" + EscapeHtml(chart.caption) + more;
   std::string limits;
   for (const Series& series : chart.series) {
-    if (series.limited_by.empty()) continue;
-    limits += "<li>" + EscapeHtml(series.name) + ": " + EscapeHtml(series.limited_by) + "</li>";
+    if (series.note.empty()) continue;
+    limits += "<li>" + EscapeHtml(series.name) + ": " + EscapeHtml(series.note) + "</li>";
   }
   if (!limits.empty()) {
     html += "<details><summary>What limits each curve</summary><ul>" + limits + "</ul></details>";

@@ -16,6 +16,10 @@
 #include "tests/report/text.h"
 
 namespace collision::report {
+
+using chart::Chart;
+using chart::Csv;
+using chart::Draw;
 namespace {
 
 struct Options {

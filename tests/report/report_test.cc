@@ -2,7 +2,7 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
-#include "tests/report/chart.h"
+#include "client/programs/chart/chart.h"
 #include "tests/report/chart_rows.h"
 #include "tests/report/compare.h"
 #include "tests/report/page.h"
@@ -14,6 +14,10 @@
 #include "tests/support/temporary_path.h"
 
 namespace collision::report {
+
+using chart::Chart;
+using chart::Csv;
+using chart::GnuplotScript;
 namespace {
 
 using Fields = std::vector<std::pair<std::string, double>>;

@@ -7,6 +7,8 @@
 #include "tests/report/chart_rows.h"
 
 namespace collision::report {
+
+using chart::Chart;
 namespace {
 
 struct Cell {

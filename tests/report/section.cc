@@ -10,6 +10,8 @@
 
 namespace collision::report {
 
+using chart::Chart;
+
 std::string IdOf(const std::string& text) {
   std::string id;
   for (const char c : text) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "client/programs/chart/chart.h"
 #include "idl/report.pb.h"
-#include "tests/report/chart.h"
 #include "tests/report/table.h"
 
 namespace collision::report {
@@ -14,7 +14,7 @@ struct Section {
   std::string id;  ///< For links within the page.
   std::string title;
   std::vector<std::string> paragraphs;
-  std::vector<Chart> charts;
+  std::vector<chart::Chart> charts;
   std::vector<Table> tables;
 };
 
@@ -22,7 +22,7 @@ struct Section {
 std::string IdOf(const std::string& text);
 
 /// Adds the chart if anything was measured for it. Each contestant looks the same in all charts.
-void AddChart(Chart chart, Section* section);
+void AddChart(chart::Chart chart, Section* section);
 
 /// Adds the table if it has rows.
 void AddTable(Table table, Section* section);

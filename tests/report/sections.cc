@@ -12,6 +12,10 @@
 #include "tests/report/text.h"
 
 namespace collision::report {
+
+using chart::Chart;
+using chart::Point;
+using chart::Series;
 namespace {
 
 const std::vector<std::string> kOurs = {"ours"};
@@ -154,7 +158,7 @@ std::string OursByName(const std::string& contestant) {
 void AddGrowth(Chart chart, const std::vector<const Row*>& measured, Section* section) {
   const std::vector<Row> rows = Renamed(measured, "contestant", OursByName);
   chart = ChartOf(chart, Pointers(rows), {{"contestant"}, "agents", "seconds", 1, 1, {"ours"}});
-  for (Series& series : chart.series) series.ours = series.name == "ours";
+  for (Series& series : chart.series) series.thick = series.name == "ours";
   chart.caption = "Lower is better; N^x is how the time grows with the agents. " +
                   TimesAtTheEnd(chart, "agents");
   DrawByContestant(&chart);
@@ -225,7 +229,7 @@ Section Service(const v1::Results& results) {
         saved,
         Select(results, "service", {{"part", "messages"}, {"sweep", sweep + std::string("=*")}}),
         {{"part"}, field, "ratio"});
-    for (Series& series : saved.series) series.name = "ours", series.ours = true;
+    for (Series& series : saved.series) series.name = "ours", series.thick = true;
     saved.caption =
         "How many states a stream of 60 a second sends for each one that ours asks for; from left "
         "to right: " +

@@ -143,6 +143,8 @@ const std::vector<Layer>& Layers() {
       {programs + "recordings/",
        {"idl/", api, library, programs + "shared/", programs + "scene/", programs + "foxglove/",
         programs + "recordings/"}},
+      // Plots of any numbers; the report of the tests draws with them, too.
+      {programs + "chart/", {programs + "chart/"}},
       {programs + "shared/", {"idl/", api, library, mesh, programs + "shared/"}},
       {programs + "simulators/motion/",
        {api, library, programs + "shared/", programs + "simulators/motion/"}},

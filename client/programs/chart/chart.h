@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/report/palette.h"
+#include "client/programs/chart/palette.h"
 
-namespace collision::report {
+namespace collision::chart {
 
 struct Point {
   double x = 0;
@@ -18,8 +18,8 @@ struct Point {
 struct Series {
   std::string name;
   std::vector<Point> points;  ///< In the order in which they are joined.
-  bool ours = false;          ///< Drawn thicker.
-  std::string limited_by;     ///< What limits it; shown below the plot.
+  bool thick = false;         ///< Drawn thicker than the others.
+  std::string note;           ///< What a page says of it below the plot; not drawn.
   std::optional<Look> look;   ///< Nullopt: GiveLooks() finds one.
 };
 
@@ -53,4 +53,4 @@ std::string GnuplotScript(Chart chart, const std::string& svg_path);
 /// `folder` takes the script while it runs. Throws std::runtime_error with gnuplot's own words.
 std::string Draw(const Chart& chart, const std::string& folder);
 
-}  // namespace collision::report
+}  // namespace collision::chart

@@ -1,12 +1,12 @@
 // Looks of curves that nobody has chosen one for, and what gnuplot is told of them.
-#include "tests/report/chart.h"
+#include "client/programs/chart/chart.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <utility>
 
-namespace collision::report {
+namespace collision::chart {
 namespace {
 
 /// Some of them have the same colour by their letters.
@@ -82,4 +82,4 @@ TEST(GnuplotScript, DrawsColourMarkAndDash) {
 }
 
 }  // namespace
-}  // namespace collision::report
+}  // namespace collision::chart

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace collision::report {
+namespace collision::chart {
 
 /// Colours that the colour-blind tell apart (Okabe and Ito, "Color universal design", 2008), with
 /// grey in place of yellow, which is too light on white.
@@ -60,4 +60,4 @@ inline constexpr std::array kOpenMarks = {
     Mark::kOpenCircle,       Mark::kOpenSquare,   Mark::kOpenTriangle, Mark::kOpenDiamond,
     Mark::kOpenTriangleDown, Mark::kOpenPentagon, Mark::kStar,         Mark::kPlus};
 
-}  // namespace collision::report
+}  // namespace collision::chart

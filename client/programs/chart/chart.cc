@@ -1,9 +1,9 @@
-#include "tests/report/chart.h"
+#include "client/programs/chart/chart.h"
 
 #include <algorithm>
 #include <cstdio>
 
-namespace collision::report {
+namespace collision::chart {
 namespace {
 
 bool Has(const std::vector<Look>& taken, Colour colour) {
@@ -77,4 +77,4 @@ std::string CsvCell(const std::string& text) {
   return quoted + '"';
 }
 
-}  // namespace collision::report
+}  // namespace collision::chart

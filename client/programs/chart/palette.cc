@@ -1,6 +1,6 @@
-#include "tests/report/palette.h"
+#include "client/programs/chart/palette.h"
 
-namespace collision::report {
+namespace collision::chart {
 
 std::string HtmlColour(Colour colour) {
   static constexpr std::array<const char*, kColours> kCodes = {
@@ -26,4 +26,4 @@ Look LookOf(const std::string& name) {
   return {static_cast<Colour>(hash % kColours), kOpenMarks[hash / kColours % kOpenMarks.size()], 0};
 }
 
-}  // namespace collision::report
+}  // namespace collision::chart

@@ -8,9 +8,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "tests/report/chart.h"
+#include "client/programs/chart/chart.h"
 
-namespace collision::report {
+namespace collision::chart {
 namespace {
 
 /// Gnuplot's mark of points at infinity.
@@ -29,6 +29,13 @@ std::string Quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
   return quoted + "'";
+}
+
+/// As one word of a shell.
+std::string ShellWord(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
 }
 
 bool Drawable(const Chart& chart, const Point& point) {
@@ -121,7 +128,7 @@ std::string GnuplotScript(Chart chart, const std::string& svg_path) {
     const Series& series = chart.series[i];
     const Look& look = *series.look;
     const std::string style =
-        " lc rgb '" + HtmlColour(look.colour) + "' lw " + (series.ours ? "2.4" : "1.3");
+        " lc rgb '" + HtmlColour(look.colour) + "' lw " + (series.thick ? "2.4" : "1.3");
     std::string title = " title " + Quoted(series.name) + " noenhanced";
     const std::string joined = Data(chart, series, false, infinity);
     const std::string crosses = Data(chart, series, true, infinity);
@@ -146,7 +153,8 @@ std::string Draw(const Chart& chart, const std::string& folder) {
   const std::string base = folder + "/" + chart.id;
   const std::string svg = base + ".svg", script = base + ".gnuplot", errors = base + ".errors";
   std::ofstream(script, std::ios::binary) << GnuplotScript(chart, svg);
-  const int status = std::system(("gnuplot '" + script + "' 2>'" + errors + "'").c_str());
+  const int status =
+      std::system(("gnuplot " + ShellWord(script) + " 2>" + ShellWord(errors)).c_str());
   const std::string said = ReadAll(errors);
   std::filesystem::remove(errors);
   if (status != 0) throw std::runtime_error("gnuplot, of " + chart.id + ": " + said);
@@ -154,4 +162,4 @@ std::string Draw(const Chart& chart, const std::string& folder) {
   return ReadAll(svg);
 }
 
-}  // namespace collision::report
+}  // namespace collision::chart
