@@ -69,9 +69,9 @@ class StateTable {
   std::string Pack(std::uint32_t chunk) const;
 
   /// All that have changed after the change `seen`, as bytes: for each agent u32 number, u32 0,
-  /// then kStateBytes as above; of all these the first bytes, then the second ones, and so on, since
-  /// so they compress to half. Numbers are rounded to multiples of `step`, a power of two [SI];
-  /// 0: as they are. Empty: none has changed.
+  /// then kStateBytes as above; of all these the first bytes, then the second ones, and so on:
+  /// they compress to half. Numbers are rounded to multiples of `step`, a power of two [SI]; 0: as
+  /// they are. Empty: none has changed.
   std::string PackAfter(std::uint64_t seen, double step = 0) const;
 
   /// The number of the newest change.
