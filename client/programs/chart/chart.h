@@ -28,8 +28,9 @@ struct Chart {
   std::string title;  ///< Above the plot.
   std::string x_label, y_label;
   bool log_x = true, log_y = true;
-  std::string caption;  ///< What is to be seen in it, below the plot.
-  std::vector<Series> series;
+  bool draws_title = false;  ///< In the picture: it stands alone.
+  std::string caption;       ///< What is to be seen in it, below the plot.
+  std::vector<Series> series = {};
 
   bool empty() const { return series.empty(); }
 };

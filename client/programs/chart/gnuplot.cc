@@ -17,6 +17,8 @@ namespace {
 constexpr int kCross = 2;
 /// Above the highest point, where infinity is drawn: a share of the axis.
 constexpr double kRoomAbove = 0.12;
+/// On a curve of more points they are set apart.
+constexpr std::size_t kMarksMax = 40;
 /// Two of these stand beside each other.
 constexpr std::size_t kShortName = 26;
 
@@ -115,6 +117,7 @@ std::string GnuplotScript(Chart chart, const std::string& svg_path) {
                      "set grid lc '#dddddd'\nset border 3\nset tics nomirror\n";
   // Powers of ten need gnuplot's own markup; names must not be read as such.
   text += "set termoption enhanced\n";
+  if (chart.draws_title) text += "set title " + Quoted(chart.title) + " noenhanced\n";
   text += AxisOf('x', chart.x_label, chart.log_x) + AxisOf('y', chart.y_label, chart.log_y);
   if (range.at_infinity) {
     char line[120];
@@ -135,9 +138,10 @@ std::string GnuplotScript(Chart chart, const std::string& svg_path) {
     const std::string name = "$s" + std::to_string(i);
     if (!joined.empty()) {
       text += name + " << EOD\n" + joined + "EOD\n";
+      const std::size_t apart = 1 + series.points.size() / kMarksMax;
       plots += (plots.empty() ? "" : ", ") + name + " using 1:2 with linespoints pt " +
-               std::to_string(static_cast<int>(look.mark)) + " ps 0.6 dt " +
-               GnuplotDash(look.dash) + style + title;
+               std::to_string(static_cast<int>(look.mark)) + " ps 0.6 pi " + std::to_string(apart) +
+               " dt " + GnuplotDash(look.dash) + style + title;
       title = " notitle";
     }
     if (!crosses.empty()) {

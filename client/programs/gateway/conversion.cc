@@ -1,8 +1,6 @@
 #include "client/programs/gateway/conversion.h"
 
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -11,37 +9,15 @@
 
 #include "client/programs/recordings/replayed_world.h"
 #include "client/programs/recordings/world_recorder.h"
+#include "client/programs/shared/temporary_folder.h"
 
 namespace collision::gateway {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::chrono::minutes kPatience{5};
 
-/// A folder of its own, which goes with it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "collision-gateway-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::string Path(const char* name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
-
 std::string Converted(const std::string& recording, const std::atomic<bool>& is_stopped) {
-  const TemporaryFolder folder;
+  const client::TemporaryFolder folder("collision-gateway");
   const std::string input = folder.Path("dropped.rec"), output = folder.Path("dropped.mcap");
   if (!(std::ofstream(input, std::ios::binary) << recording).flush()) {
     throw std::runtime_error(input + ": cannot be written");

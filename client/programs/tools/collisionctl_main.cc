@@ -32,6 +32,7 @@
 #include "client/programs/tools/collisionctl/why/why_page.h"
 #include "client/programs/tools/recordings/convert.h"
 #include "client/programs/tools/recordings/export.h"
+#include "client/programs/tools/recordings/plot.h"
 #include "client/programs/tools/sphere_tree/command.h"
 #include "client/programs/tools/suggest_bounds/command.h"
 #include "idl/limits.h"
@@ -304,6 +305,8 @@ int Main(int argc, char** argv) {
   const CLI::App* record = AddRecordCommand(&app, &mcap);
   ExportOptions single;
   const CLI::App* export_command = AddExportCommand(&app, &single);
+  PlotOptions plot;
+  const CLI::App* plot_command = AddPlotCommand(&app, &plot);
   AddExamples(&app);
   AddVersion(&app);
   if (const std::optional<int> code = Parse(&app, argc, argv)) return *code;
@@ -314,6 +317,7 @@ int Main(int argc, char** argv) {
     return RunSphereTree(tree);
   }
   if (export_command->parsed()) return RunExport(single);
+  if (plot_command->parsed()) return RunPlot(plot);
   if (convert->parsed()) return RunConvert(mcap);
   if (record->parsed()) return RunRecord(mcap, options.monitor, options.timeout_s);
   if (make_certificates->parsed()) return RunMakeCertificates(certificates, GivenPlace(app));
