@@ -18,6 +18,7 @@
 #include "client/programs/gateway/page_viewer.h"
 #include "client/programs/gateway/site.h"
 #include "client/programs/scene/page_items.h"
+#include "client/programs/scene/past.h"
 #include "client/programs/scene/scene.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/agents_watcher.h"
@@ -110,7 +111,7 @@ class Gateway {
   explicit Gateway(const GatewayOptions& options)
       : options_(options),
         page_(ReadPage(options)),
-        site_(page_.get(), &shapes_),
+        site_(page_.get(), &shapes_, &past_),
         scene_(&shapes_),
         items_(&board_),
         monitor_(MonitorOptionsOf(options), scene_.Callbacks()),
@@ -184,6 +185,7 @@ class Gateway {
                                     .contacts_missed = monitor_.contacts_missed(),
                                     .unreadable = monitor_.unreadable()});
     if (is_new) server_.Wake();
+    past_.Keep(scene_.states(), scene_.now_ns());
     if (now < metrics_due_ && is_fresh == was_fresh_) return;
     was_fresh_ = is_fresh;
     metrics_due_ = now + kMetricsPeriod;
@@ -226,6 +228,7 @@ class Gateway {
   const std::unique_ptr<const PageFiles> page_;
   client::Board board_;
   client::ShapeStore shapes_;
+  client::Past past_;
   Site site_;
   std::atomic<int> viewers_ = 0;
   client::Scene scene_;

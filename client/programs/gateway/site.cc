@@ -52,6 +52,11 @@ WebResponse Site::Answer(const WebRequest& request) const {
     if (!metrics_) return Text(503, "nothing has been heard yet");
     return {.type = "text/plain; version=0.0.4; charset=utf-8", .body = metrics_};
   }
+  if (path == "/past") {
+    return {.type = "application/octet-stream",
+            .body = MakePayload(past_.Items()),
+            .headers = {{"Cache-Control", "no-store"}}};
+  }
   if (path.starts_with(kShapes)) return Shape(path.substr(kShapes.size()));
   if (files_ == nullptr) return Text(404, "this gateway has no page: see --page");
   return files_->Answer(path, request.takes_gzip);

@@ -6,6 +6,7 @@
 
 #include "client/programs/gateway/web/page_files.h"
 #include "client/programs/gateway/web/web_types.h"
+#include "client/programs/scene/past.h"
 #include "client/programs/scene/shape_store.h"
 
 namespace collision::gateway {
@@ -19,9 +20,9 @@ struct Readiness {
 /// Pages, shapes, and what probes ask for. Any thread.
 class Site {
  public:
-  /// `files` may be null: then there is no page. Both outlive it.
-  Site(const PageFiles* files, const client::ShapeStore* shapes)
-      : files_(files), shapes_(*shapes) {}
+  /// `files` may be null: then there is no page. All outlive it.
+  Site(const PageFiles* files, const client::ShapeStore* shapes, const client::Past* past)
+      : files_(files), shapes_(*shapes), past_(*past) {}
 
   WebResponse Answer(const WebRequest& request) const;
 
@@ -33,6 +34,7 @@ class Site {
 
   const PageFiles* const files_;
   const client::ShapeStore& shapes_;
+  const client::Past& past_;
   mutable std::mutex mutex_;
   Readiness readiness_;  ///< Guarded by it, as is all below.
   Payload metrics_;

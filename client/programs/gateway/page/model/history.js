@@ -21,6 +21,13 @@ export class History {
     if (this.states.length > this.limit) this.thin();
   }
 
+  /** States of before all that are there, in their order. */
+  addPast(states) {
+    const first = this.states[0]?.t ?? Infinity;
+    this.states = [...states.filter(({ t }) => t < first), ...this.states];
+    if (this.states.length > this.limit) this.thin();
+  }
+
   thin() {
     const half = this.states.length >> 1;
     this.states = this.states.filter((_, i) => i >= half || i % 2 === 0);

@@ -117,6 +117,17 @@ export class World extends EventTarget {
     agent.history.add(state);
   }
 
+  /** States of before this page was opened, by the numbers of their agents. */
+  takePast(past) {
+    for (const [number, states] of past) {
+      const agent = this.agents.get(number);
+      if (!agent) continue;
+      agent.history.limit = this.limit();
+      agent.history.addPast(states);
+    }
+    this.arrived();
+  }
+
   /**
    * What a service told in a former epoch is of another time. Of a service that has ended, and that
    * no standby succeeds, nobody knows whether its open events go on.

@@ -32,6 +32,16 @@ export function readItems(buffer, model) {
   }
 }
 
+/** The items of a message, each as a message. */
+export function* splitItems(buffer) {
+  const view = new DataView(buffer);
+  for (let at = 0; at + 8 <= buffer.byteLength;) {
+    const end = at + 8 + view.getUint32(at + 4, true);
+    yield buffer.slice(at, end);
+    at = end;
+  }
+}
+
 function readStates(view, at, model) {
   const first = view.getUint32(at, true), count = view.getUint32(at + 4, true);
   for (let i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
 // The world as it is now, from the gateway.
-import { readItems } from "./items.js";
+import { readItems, splitItems } from "./items.js";
 
 const PROTOCOL = "collision.page.v1";
 const SILENCE_MS = 3000;  // A gateway that says nothing for so long is told of.
@@ -25,6 +25,7 @@ export class LiveSource {
     this.socket.binaryType = "arraybuffer";
     this.socket.onopen = () => {
       this.model.reset();
+      this.hasPast = false;
       this.heard = performance.now();
     };
     this.socket.onmessage = (message) => this.take(message.data);
@@ -42,6 +43,7 @@ export class LiveSource {
     try {
       readItems(bytes, this.model);
       this.model.arrived();
+      if (!this.hasPast && this.model.agents.size > 0) this.fetchPast();
     } finally {
       // When it is shown: a page that is not drawn is sent no more.
       const socket = this.socket;
@@ -49,6 +51,25 @@ export class LiveSource {
         if (socket.readyState === WebSocket.OPEN) socket.send("ack");
       });
     }
+  }
+
+  /** The last ten minutes before this page was opened. */
+  async fetchPast() {
+    this.hasPast = true;
+    const socket = this.socket;
+    const answer = await fetch("past").catch(() => null);
+    if (!answer?.ok) return;
+    const past = new Map();
+    const takeState = (number, state) => {
+      if (!state) return past.delete(number);  // What was before is of another agent.
+      if (!past.has(number)) past.set(number, []);
+      past.get(number).push(state);
+    };
+    for (const item of splitItems(await answer.arrayBuffer())) {
+      readItems(item, { takeState });
+      await new Promise((done) => setTimeout(done));  // The page goes on meanwhile.
+    }
+    if (socket === this.socket && !this.isClosed) this.model.takePast(past);
   }
 
   /** A recording takes its place. */
