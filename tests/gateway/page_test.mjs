@@ -251,7 +251,7 @@ test("a service that hangs is told of, and one that goes on is found", async () 
   }
 });
 
-test("ten thousand agents are shown without long tasks", async () => {
+test("ten thousand agents and a hundred meshes are shown without long tasks", async () => {
   const world = new TestWorld(143, "agents_max: 20000\npairs_max: 1000000\n" + REAL_TIME);
   try {
     await world.startService();
@@ -259,11 +259,16 @@ test("ten thousand agents are shown without long tasks", async () => {
     const gateway = await world.startGateway("0", "--rate", "2");
     world.start("drone-swarm", "--drones", "10000", "--simulator", "swarm", "--real-time", "--rate",
                 "10", "--box", "60000,60000,6000", "--places", "10000", "--seconds", "200");
+    world.start("drone-ships", "--drones", "100", "--simulator", "ships", "--real-time", "--rate",
+                "10", "--mesh", source("config/scenes/drone-ship.obj"), "--mesh-unit", "1",
+                "--mesh-up", "z", "--box", "600,600,200", "--seconds", "200");
     const page = await openPage(browser, gateway.address);
     const drawn = () => collision.scene.renderer.info.render.points;
-    await page.waitForFunction(() => collision.world.agents.size === 10000, undefined,
+    await page.waitForFunction(() => collision.world.agents.size === 10100, undefined,
                                { timeout: 60000 });
-    await until("all are drawn", async () => (await page.evaluate(drawn)) === 10000);
+    await until("all are drawn", async () => (await page.evaluate(drawn)) === 10100);
+    const shapes = () => collision.scene.bodies.shown.size;
+    await until("the ships have their shapes", async () => (await page.evaluate(shapes)) === 100);
     // Other programs may have the processors: a loop that always does the same tells by how much
     // that slows this one down, and the bar is so much higher.
     await until("four seconds without a task of 200 ms", async () => {
