@@ -62,18 +62,33 @@ StateTable::Agent Rounded(StateTable::Agent agent, double step) {
 
 std::optional<std::uint32_t> StateTable::NumberOf(std::uint64_t simulator, std::uint32_t slot) {
   const auto next = static_cast<std::uint32_t>(agents_.size());
-  if (next == kAgentsMax || slot > wire::kSlotMax) return Known(simulator, slot);
-  const auto [place, is_new] = numbers_.try_emplace({simulator, slot}, next);
-  if (is_new) {
-    agents_.push_back({.simulator = simulator, .slot = slot});
-    if (next / kStatesOfAChunk >= changed_.size()) changed_.push_back(false);
+  const auto known = Known(simulator, slot);
+  if (known || next == kAgentsMax || slot > wire::kSlotMax) return known;
+  const PageKey key{simulator, slot / Page::kSlots};
+  std::unique_ptr<Page>& page = pages_[key];
+  if (!page) {
+    page = std::make_unique<Page>();
+    page->numbers.fill(Page::kNone);
   }
-  return place->second;
+  page->numbers[slot % Page::kSlots] = next;
+  agents_.push_back({.simulator = simulator, .slot = slot});
+  if (next / kStatesOfAChunk >= changed_.size()) changed_.push_back(false);
+  return next;
+}
+
+StateTable::Page* StateTable::FindPage(const PageKey& key) const {
+  if (last_page_.second != nullptr && last_page_.first == key) return last_page_.second;
+  const auto page = pages_.find(key);
+  if (page == pages_.end()) return nullptr;
+  last_page_ = {key, page->second.get()};
+  return page->second.get();
 }
 
 std::optional<std::uint32_t> StateTable::Known(std::uint64_t simulator, std::uint32_t slot) const {
-  const auto known = numbers_.find({simulator, slot});
-  return known == numbers_.end() ? std::nullopt : std::optional(known->second);
+  const Page* page = FindPage({simulator, slot / Page::kSlots});
+  if (page == nullptr) return std::nullopt;
+  const std::uint32_t number = page->numbers[slot % Page::kSlots];
+  return number == Page::kNone ? std::nullopt : std::optional(number);
 }
 
 StateTable::Agent* StateTable::Find(std::uint64_t simulator, std::uint32_t slot) {

@@ -4,9 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -78,21 +79,22 @@ class StateTable {
   std::uint64_t newest_change() const { return last_; }
 
  private:
-  struct Slot {
-    std::uint64_t simulator = 0;
-    std::uint32_t slot = 0;
-    friend bool operator==(const Slot&, const Slot&) = default;
+  /// Numbers of neighbouring slots of a simulator; messages are about such.
+  struct Page {
+    static constexpr std::uint32_t kSlots = 64;
+    static constexpr std::uint32_t kNone = ~0u;
+    std::array<std::uint32_t, kSlots> numbers;
   };
-  struct SlotHash {
-    std::size_t operator()(const Slot& key) const {
-      return std::hash<std::uint64_t>()(key.simulator ^ (key.slot * 0x9e3779b97f4a7c15ull));
-    }
-  };
+  using PageKey = std::pair<std::uint64_t, std::uint32_t>;  ///< Simulator, slot / kSlots.
+
+  /// Null: there is none.
+  Page* FindPage(const PageKey& key) const;
 
   Agent* Find(std::uint64_t simulator, std::uint32_t slot);
   static void PackAgent(const Agent& agent, std::string* bytes);
 
-  std::unordered_map<Slot, std::uint32_t, SlotHash> numbers_;
+  std::map<PageKey, std::unique_ptr<Page>> pages_;
+  mutable std::pair<PageKey, Page*> last_page_{};  ///< That was found last.
   std::vector<Agent> agents_;
   std::vector<bool> changed_;  ///< By chunk.
   std::uint64_t last_ = 0;     ///< Number of the newest change.

@@ -1,6 +1,7 @@
 #include "client/programs/shared/world_view.h"
 
 #include <algorithm>
+#include <bitset>
 #include <iterator>
 #include <set>
 #include <tuple>
@@ -400,7 +401,9 @@ void WorldView::Handle(const v1::ShapePart& part) {
 void WorldView::Handle(const v1::AgentStates& states) {
   for (const v1::AgentState& state : states.states()) {
     if (state.slot() > wire::kSlotMax) continue;
-    states_[{states.simulator_id(), state.slot()}] = {states.run(), state};
+    auto& [run, kept] = states_[{states.simulator_id(), state.slot()}];
+    run = states.run();
+    kept = state;
   }
 }
 
@@ -408,12 +411,22 @@ void WorldView::Handle(const v1::Clearance& clearance) {
   if (clearance.chunk() > wire::kSlotMax / kSlotsPerChunk) return;  // of no service
   // A chunk tells all of its agents: those that it does not name are not there.
   const std::uint32_t first = clearance.chunk() * kSlotsPerChunk;
-  clearances_.erase(clearances_.lower_bound({clearance.simulator_id(), first}),
-                    clearances_.lower_bound({clearance.simulator_id(), first + kSlotsPerChunk}));
-  clearance_stamps_[{clearance.simulator_id(), clearance.chunk()}] = clearance.stamp();
+  std::bitset<kSlotsPerChunk> named;
   for (const v1::AgentClearance& agent : clearance.agents()) {
-    clearances_[{clearance.simulator_id(), agent.slot()}] = {clearance.run(), agent};
+    if (agent.slot() < first || agent.slot() - first >= kSlotsPerChunk) continue;
+    named.set(agent.slot() - first);
+    // In place: many come, and nearly all are of agents that are known.
+    auto& [run, kept] = clearances_[{clearance.simulator_id(), agent.slot()}];
+    run = clearance.run();
+    kept = agent;
   }
+  auto next = clearances_.lower_bound({clearance.simulator_id(), first});
+  const auto end = clearances_.lower_bound({clearance.simulator_id(), first + kSlotsPerChunk});
+  while (next != end) {
+    const bool is_named = named.test(next->first.second - first);
+    next = is_named ? std::next(next) : clearances_.erase(next);
+  }
+  clearance_stamps_[{clearance.simulator_id(), clearance.chunk()}] = clearance.stamp();
 }
 
 std::string WorldView::SimulatorName(std::uint64_t id) const {
