@@ -155,7 +155,7 @@ function draw(began) {
   }
   const now = newest();
   if (world.player) $("scrub").value = t - now;
-  $("clock").textContent = worldTime(t);
+  $("clock").textContent = worldTime(t, world.status?.epoch_utc);
   $("scrub-text").textContent = world.player ? seconds(t - world.player.begin)
     : state.paused === null ? "live" : seconds(state.paused - now);
   tellVerdict();

@@ -275,6 +275,11 @@ export class World extends EventTarget {
   }
 }
 
+/** What was told of an event at `t`; undefined: nothing yet. */
+export function statusAt(one, t) {
+  return one.revisions.findLast((revision) => revision.now_s <= t)?.status;
+}
+
 const idOf = (reference) => `${reference.simulator_id}.${reference.slot}`;
 
 /** The level of an event at `t`: index into LEVELS. */

@@ -88,6 +88,8 @@ export class Bodies {
 
   async fetch(hash) {
     const bytes = await this.world.shapeBytes(hash);
-    if (bytes) this.geometries.set(hash, readShape(bytes));
+    if (!bytes) return;
+    this.geometries.set(hash, readShape(bytes));
+    this.world.dispatchEvent(new Event("change"));  // It is drawn, also where time stands still.
   }
 }

@@ -31,11 +31,16 @@ export function quantity(value, unit) {
   return `${size === 0 ? "0" : (value / factor).toPrecision(3)} ${prefix}${unit}`;
 }
 
-/** The world's time: with a clock that counts from 1970 the time of day, else seconds. */
-export function worldTime(t) {
+/**
+ * The world's time: with a clock that counts from 1970 the time of day; else seconds, and the time
+ * of day where the world says what its instant 0 is.
+ */
+export function worldTime(t, epochUtc) {
   if (t == null) return "–";
-  if (t < 1e9) return `${t.toFixed(2)} s`;
-  return `${new Date(t * 1000).toISOString().slice(11, 22)} UTC`;
+  const utc = (s) => `${new Date(s * 1000).toISOString().slice(11, 22)} UTC`;
+  if (t >= 1e9) return utc(t);
+  const epoch = Date.parse(epochUtc ?? "") / 1000;
+  return `${t.toFixed(2)} s` + (Number.isFinite(epoch) ? ` · ${utc(epoch + t)}` : "");
 }
 
 export const fullName = (reference) =>
@@ -64,7 +69,7 @@ export const colorOf = (name) =>
 
 /** Names and values; what has none is left out. */
 export const list = (rows) => element("dl", {}, ...rows.filter(([, value]) =>
-  value != null && value !== "").flatMap(([name, value]) =>
+  value != null && value !== "" && value !== false).flatMap(([name, value]) =>
   [element("dt", {}, name), element("dd", {}, value)]));
 
 export const table = (heads, rows) => element("table", {},

@@ -1,7 +1,7 @@
 // The tables beside the view, one page at a time.
-import { levelAt, LEVELS } from "../model/world.js";
+import { levelAt, LEVELS, statusAt } from "../model/world.js";
 import {
-  bracket, element, fullName, list, mark, quantity, seconds, table, width,
+  bracket, element, fullName, list, mark, quantity, seconds, table, worldTime,
 } from "./format.js";
 import { beginOf } from "./timeline.js";
 import { drawHistory } from "./event_history.js";
@@ -21,6 +21,7 @@ export class Pages {
   constructor(world, place, tabs, onChoose) {
     Object.assign(this, { world, place, onChoose, words: [] });
     this.detail = null;
+    this.byGap = false;
     this.tabs = PAGES.map(({ id, title }) => {
       const tab = element("button", { role: "tab", id: `tab-${id}`, onclick: () => this.show(id) },
                           title);
@@ -99,6 +100,7 @@ export class Pages {
       this.matches(() => fullName(event.lower), () => fullName(event.higher), () => event.status,
                    () => tagsOf(event.lower), () => tagsOf(event.higher)));
     const order = ({ event }) => {
+      if (this.byGap) return gapOf(event)?.lower ?? Infinity;
       const level = levelAt(event, t);
       const begin = beginOf(event, t);
       // What stands; what is expected, then what may be, the nearest first; what was, the newest
@@ -114,16 +116,23 @@ export class Pages {
     if (shown.length === 0) {
       return [element("p", { class: "empty" }, "No contact is possible or was told.")];
     }
-    return [table(["", "Pair", "Status", "Begins", "Known to"],
+    const sort = element("button", {
+      "data-key": "by-gap", "aria-pressed": String(this.byGap), title: "Those that come nearest first",
+      onclick: () => {
+        this.byGap = !this.byGap;
+        this.draw(this.world.time());
+      } }, "Gap");
+    return [table(["", "Pair", "Status", "Begins", sort],
       shown.slice(0, ROWS_MAX).map((one) => {
         const { event } = one;
         const level = levelAt(event, t);
         return this.row(one.key, false, () => this.onChoose({ event: one }),
           element("td", {}, mark(level === 0 ? "over" : LEVELS[level])),
           element("td", {}, `${event.lower.name} – ${event.higher.name}`),
-          element("td", {}, event.status + (event.level ? ` (${event.level})` : "")),
+          element("td", {}, (statusAt(one, t) ?? "not told yet") +
+            (event.level ? ` (${event.level})` : "")),
           element("td", {}, beginText(event, t)),
-          element("td", { class: "number" }, quantity(width(event.begin), "s")));
+          element("td", { class: "number" }, gapText(event)));
       })), more(shown.length)].filter(Boolean);
   }
 
@@ -172,8 +181,11 @@ export class Pages {
         fullName(event.higher)),
       element("p", { class: "sentence" }, event.explanation ?? ""),
       list([
-        ["Status", event.status + (event.because ? `, since one has ${event.because}` : "")],
+        ["Status", (statusAt(one, t) ?? "not told yet") + (event.because ? `, since one has ${event.because}` : "")],
         ["Begins", bracket(event.begin)],
+        ["Which is", Date.parse(this.world.status?.epoch_utc ?? "") > 0 &&
+          event.begin.earliest_s != null &&
+          worldTime(event.begin.earliest_s, this.world.status.epoch_utc).split(" · ")[1]],
         ["Ends", bracket(event.end)],
         ["Expected", expectedText(event)],
         ["Gap", gap && `${quantity(gap.lower, "m")} … ${quantity(gap.upper, "m")} at ` +
@@ -232,6 +244,16 @@ export class Pages {
   back() {
     return element("button", { onclick: () => this.show(this.id) }, "← back");
   }
+}
+
+/** How far apart the two are when they are nearest, as far as was told; null: it was not. */
+const gapOf = (event) => event.status === "possible"
+  ? event.expected?.closest?.distance_m : event.proximity?.separation_m ?? event.closest?.distance_m;
+
+function gapText(event) {
+  const gap = gapOf(event);
+  if (!gap) return "–";
+  return gap.upper != null && gap.upper <= 0 ? "touch" : quantity(Math.max(0, gap.lower), "m");
 }
 
 function beginText(event, t) {
