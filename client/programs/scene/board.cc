@@ -32,6 +32,12 @@ void Board::Remove(const std::string& name) {
   numbers_.erase(place);
 }
 
+void Board::Clear() {
+  const std::lock_guard lock(mutex_);
+  changes_.clear();
+  numbers_.clear();
+}
+
 std::size_t Board::size() const {
   const std::lock_guard lock(mutex_);
   return changes_.size();

@@ -38,6 +38,9 @@ class Board {
   /// It is shown no more; viewers are not told: an item that says so takes its place before.
   void Remove(const std::string& name);
 
+  /// Removes all items.
+  void Clear();
+
   std::size_t size() const;
 
  private:

@@ -83,6 +83,12 @@ void EventBook::ForgetEpochsBefore(const v1::ServiceStamp& stamp, std::uint64_t 
   }
 }
 
+std::vector<std::uint64_t> EventBook::Numbers() const {
+  std::vector<std::uint64_t> numbers;
+  for (const auto& [number, key] : by_age_) numbers.push_back(number);
+  return numbers;
+}
+
 EventBook::Changes EventBook::TakeChanges() {
   Changes changes{.dropped = std::exchange(dropped_, {}), .changed = {}};
   for (const Key& key : std::exchange(changed_, {})) {

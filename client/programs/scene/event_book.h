@@ -59,6 +59,9 @@ class EventBook {
   /// The number of this event, whichever its revision; nullopt: it is not kept.
   std::optional<std::uint64_t> NumberOf(const v1::CollisionEvent& event) const;
 
+  /// Of all that are kept, the oldest first.
+  std::vector<std::uint64_t> Numbers() const;
+
   /// Requires that it is kept.
   const Entry& At(std::uint64_t number) const { return events_.at(by_age_.at(number)); }
 
