@@ -13,7 +13,9 @@
 #include "client/library/identity/library_version.h"
 #include "client/library/network/dds_transport.h"
 #include "client/library/notices/notices.h"
+#include "client/programs/foxglove/foxglove_channels.h"
 #include "client/programs/gateway/conversion.h"
+#include "client/programs/gateway/foxglove_viewer.h"
 #include "client/programs/gateway/metrics/world_metrics.h"
 #include "client/programs/gateway/page_viewer.h"
 #include "client/programs/gateway/site.h"
@@ -84,7 +86,7 @@ std::unique_ptr<const PageFiles> ReadPage(const GatewayOptions& options) {
   }
 }
 
-/// A page viewer that is counted.
+/// A viewer that is counted.
 class CountedViewer final : public WebViewer {
  public:
   CountedViewer(std::unique_ptr<WebViewer> viewer, std::atomic<int>* count)
@@ -111,6 +113,7 @@ class Gateway {
   explicit Gateway(const GatewayOptions& options)
       : options_(options),
         page_(ReadPage(options)),
+        foxglove_(FoxgloveServerOf(options)),
         site_(page_.get(), &shapes_, &past_),
         scene_(&shapes_),
         items_(&board_),
@@ -161,11 +164,24 @@ class Gateway {
             .upload_path = "/convert",
             .upload = [this](WebRequest request,
                              WebReply reply) { conversion_.Start(request.body, std::move(reply)); },
-            .protocols = {kPageProtocol},
-            .connect = [this](const std::string&) -> std::unique_ptr<WebViewer> {
-              return std::make_unique<CountedViewer>(std::make_unique<PageViewer>(&board_),
-                                                     &viewers_);
+            .protocols = {kPageProtocol, kFoxgloveProtocol, kFoxgloveOldProtocol},
+            .connect = [this](const std::string& protocol) -> std::unique_ptr<WebViewer> {
+              return std::make_unique<CountedViewer>(ViewerOf(protocol), &viewers_);
             }};
+  }
+
+  std::unique_ptr<WebViewer> ViewerOf(const std::string& protocol) {
+    if (protocol == kPageProtocol) return std::make_unique<PageViewer>(&board_);
+    return std::make_unique<FoxgloveViewer>(&channels_, foxglove_);
+  }
+
+  /// Two runs at the same place differ by when they began.
+  static FoxgloveServer FoxgloveServerOf(const GatewayOptions& options) {
+    const auto begun = std::chrono::system_clock::now().time_since_epoch();
+    return {.name = "collision-gateway: " + options.monitor.world,
+            .world = options.monitor.world,
+            .version = client::LibraryVersion(),
+            .session_id = std::to_string(begun / std::chrono::nanoseconds(1))};
   }
 
   void ShowWhatIsNew(Time now) {
@@ -180,11 +196,12 @@ class Gateway {
                         .text = is_fresh ? client::Verdict(scene_.view()).front()
                                 : alive  ? "no status of the service has come for a while: it hangs"
                                          : "no service of this world is heard"});
-    const bool is_new = items_.Put(scene_, scene_.TakeChanges(),
+    const client::SceneChanges changes = scene_.TakeChanges();
+    const bool is_new = items_.Put(scene_, changes,
                                    {.service_alive = alive,
                                     .contacts_missed = monitor_.contacts_missed(),
                                     .unreadable = monitor_.unreadable()});
-    if (is_new) server_.Wake();
+    if (channels_.Put(scene_, changes, alive) || is_new) server_.Wake();
     past_.Keep(scene_.states(), scene_.now_ns());
     if (now < metrics_due_ && is_fresh == was_fresh_) return;
     was_fresh_ = is_fresh;
@@ -226,6 +243,7 @@ class Gateway {
 
   const GatewayOptions& options_;
   const std::unique_ptr<const PageFiles> page_;
+  const FoxgloveServer foxglove_;
   client::Board board_;
   client::ShapeStore shapes_;
   client::Past past_;
@@ -233,6 +251,7 @@ class Gateway {
   std::atomic<int> viewers_ = 0;
   client::Scene scene_;
   client::PageItems items_;
+  client::FoxgloveChannels channels_;
   client::MessageMonitor monitor_;
   std::unique_ptr<client::AgentsWatcher> watcher_;
   std::uint64_t status_sequence_ = 0;

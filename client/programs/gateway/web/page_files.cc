@@ -1,6 +1,5 @@
 #include "client/programs/gateway/web/page_files.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -8,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "client/programs/gateway/web/base64.h"
 #include "idl/sha256.h"
 
 namespace collision::gateway {
@@ -23,21 +23,6 @@ const char* TypeOf(const std::string& path) {
   if (ending == ".json") return "application/json";
   if (ending == ".svg") return "image/svg+xml";
   return "application/octet-stream";
-}
-
-std::string Base64(const std::string& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k > bytes.size() ? '=' : kDigits[three >> (18 - 6 * k) & 63];
-    }
-  }
-  return text;
 }
 
 std::string ContentOf(const std::filesystem::path& path) {
