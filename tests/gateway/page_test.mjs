@@ -3,7 +3,7 @@
 // Method: the real programs and Debian's chromium; collisionctl says what is true.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import http from "node:http";
 import { after, afterEach, before, test } from "node:test";
 import { launch, openPage } from "./browser.mjs";
@@ -30,19 +30,13 @@ async function pageThatIsWell(world) {
   return { service, gateway, page, verdict };
 }
 
-/** A world with two that meet head-on at 4.5 s, each a simulator of its own. */
+/** A world with two that meet, and a page that was there before. */
 async function twoThatMeet(domain) {
   const world = new TestWorld(domain, "clock { simulators_awaited: 2 }\n");
   await world.startService();
   const gateway = await world.startGateway();
   const page = await openPage(browser, gateway.address);
-  for (const [name, x, v] of [["left", -5, 1], ["right", 5, -1]]) {
-    const rows = Array.from({ length: 13 }, (_, t) => `${t},${name},${x + v * t},0,0,${v},0,0`);
-    const file = `${world.folder}/${name}.csv`;
-    writeFileSync(file, `time_s,agent_id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n${rows.join("\n")}\n`);
-    world.start("trajectory-player", file, "--simulator", `${name}-sim`, "--radius", "0.5",
-                "--speed", "2", "--linger");
-  }
+  world.startTwoThatMeet();
   return { world, gateway, page };
 }
 

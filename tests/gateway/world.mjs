@@ -66,6 +66,17 @@ export class TestWorld {
     return gateway;
   }
 
+  /** Two that meet head-on at 4.5 s, each a simulator of its own; they end at 12 s. */
+  startTwoThatMeet() {
+    for (const [name, x, v] of [["left", -5, 1], ["right", 5, -1]]) {
+      const rows = Array.from({ length: 13 }, (_, t) => `${t},${name},${x + v * t},0,0,${v},0,0`);
+      const file = join(this.folder, `${name}.csv`);
+      writeFileSync(file, `time_s,agent_id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n${rows.join("\n")}\n`);
+      this.start("trajectory-player", file, "--simulator", `${name}-sim`, "--radius", "0.5",
+                 "--speed", "2", "--linger");
+    }
+  }
+
   /** What collisionctl prints, as documents. */
   async ask(...words) {
     const { stdout } = await promisify(execFile)(join(BIN, "collisionctl"), words, {
