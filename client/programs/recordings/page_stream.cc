@@ -14,11 +14,11 @@ PageStream::PageStream(std::unique_ptr<Receiver> receiver)
 std::vector<Board::Item> PageStream::TakeNew(double step) {
   const auto& status = scene_.view().status();
   if (!begun_ && status) begun_ = status->stamp();
-  const SceneChanges changes = scene_.TakeChanges();
-  for (const std::string& hash : changes.shapes) {
+  changes_ = scene_.TakeChanges();
+  for (const std::string& hash : changes_.shapes) {
     board_.Put("bytes/" + HexText(hash), MakeItem(ItemKind::kShape, hash + *shapes_.Find(hash)));
   }
-  items_.Put(scene_, changes,
+  items_.Put(scene_, changes_,
              {.service_alive = monitor_.service_alive(),
               .contacts_missed = monitor_.contacts_missed(),
               .unreadable = monitor_.unreadable()});

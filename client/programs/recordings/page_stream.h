@@ -29,6 +29,9 @@ class PageStream {
   /// (StateTable::PackAfter()).
   std::vector<Board::Item> TakeNew(double step = 0);
 
+  /// What had changed in the scene at the last TakeNew().
+  const SceneChanges& changes() const { return changes_; }
+
   /// The world's time has begun anew since it was first told, or since BeginAnew(): what comes now
   /// is of another epoch, and would take from a page what it has.
   bool IsOver() const;
@@ -43,6 +46,7 @@ class PageStream {
   ShapeStore shapes_;
   Scene scene_{&shapes_};
   Board board_;
+  SceneChanges changes_;
   PageItems items_{&board_, StatesOnBoard::kNone};
   std::uint64_t seen_ = 0, seen_states_ = 0;
   std::optional<v1::ServiceStamp> begun_;  ///< Of the first status.

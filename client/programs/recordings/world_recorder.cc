@@ -123,6 +123,12 @@ void WorldRecorder::Begin() {
   schemas_.clear();
   page_ = file_->Add(
       McapWriter::Channel{.schema = 0, .topic = "/page", .message_encoding = "collision.page.v1"});
+  readers_.clear();
+  foxglove_ = std::make_unique<FoxgloveChannels>();
+  for (const Channel& channel : Channels()) {
+    readers_.push_back(
+        std::make_unique<ChannelReader>(foxglove_.get(), static_cast<ChannelId>(channel.id)));
+  }
   stream_.BeginAnew();
   newest_ns_ = std::numeric_limits<std::int64_t>::min();
   has_agents_ = false;
@@ -163,16 +169,21 @@ std::uint16_t WorldRecorder::ChannelOf(const std::string& topic,
   const auto known = channels_.find(topic);
   if (known != channels_.end()) return known->second;
   const google::protobuf::Descriptor& type = *message.GetDescriptor();
-  const std::string name(type.full_name());
-  if (schemas_.count(name) == 0) {
-    google::protobuf::FileDescriptorSet set;
-    std::set<std::string> added;
-    AddWithImports(*type.file(), &added, &set);
-    schemas_[name] = file_->Add(
-        McapWriter::Schema{.name = name, .encoding = "protobuf", .data = set.SerializeAsString()});
-  }
-  return channels_[topic] = file_->Add(McapWriter::Channel{
-             .schema = schemas_[name], .topic = topic, .message_encoding = "protobuf"});
+  google::protobuf::FileDescriptorSet set;
+  std::set<std::string> added;
+  AddWithImports(*type.file(), &added, &set);
+  const std::uint16_t schema = SchemaOf({.name = std::string(type.full_name()),
+                                         .encoding = "protobuf",
+                                         .data = set.SerializeAsString()});
+  return channels_[topic] = file_->Add(
+             McapWriter::Channel{.schema = schema, .topic = topic, .message_encoding = "protobuf"});
+}
+
+/// One for each name.
+std::uint16_t WorldRecorder::SchemaOf(const McapWriter::Schema& schema) {
+  const auto known = schemas_.find(schema.name);
+  if (known != schemas_.end()) return known->second;
+  return schemas_[schema.name] = file_->Add(schema);
 }
 
 void WorldRecorder::WritePage() {
@@ -180,8 +191,26 @@ void WorldRecorder::WritePage() {
   if (stream_.IsOver()) return;
   std::string message;
   for (const Board::Item& item : stream_.TakeNew()) message += *item.payload;
-  if (message.empty()) return;
+  if (message.empty()) return;  // nothing is new
   file_->Write(page_, FileTime(now_ns_), FileTime(options_.wall_ns()), message);
+  WriteForFoxglove();
+}
+
+void WorldRecorder::WriteForFoxglove() {
+  foxglove_->Put(stream_.scene(), stream_.changes(), stream_.monitor().service_alive());
+  for (const Channel& channel : Channels()) {
+    while (const Payload message = readers_[channel.id - 1]->Next()) {
+      if (channels_.count(channel.topic) == 0) {
+        const std::uint16_t schema = SchemaOf({.name = channel.schema_name,
+                                               .encoding = channel.schema_encoding,
+                                               .data = channel.schema});
+        channels_[channel.topic] = file_->Add(McapWriter::Channel{
+            .schema = schema, .topic = channel.topic, .message_encoding = channel.encoding});
+      }
+      file_->Write(channels_[channel.topic], FileTime(TimeOf(*message)),
+                   FileTime(options_.wall_ns()), std::string(MessageOf(*message)));
+    }
+  }
 }
 
 }  // namespace collision::client

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "client/library/network/message_monitor.h"
+#include "client/programs/foxglove/foxglove_channels.h"
 #include "client/programs/recordings/mcap_writer.h"
 #include "client/programs/recordings/page_stream.h"
 
@@ -23,6 +24,7 @@ struct WorldRecorderOptions {
 /// Hears a world, and writes
 ///   - each message as it came, on a channel with the name of its topic (`collision/v1/contact`),
 ///     as protobuf with its schema;
+///   - the channels for Foxglove (foxglove/channel.h): `/scene`, `/tf` and so on;
 ///   - the items of the page (scene/item.h) on the channel `/page`.
 /// The time of a message ("log time") is the world's; "publish time" is the wall's. A world whose
 /// time begins anew goes on in another file: run.2.mcap behind run.mcap. One
@@ -55,6 +57,8 @@ class WorldRecorder {
   void Begin();
   void WriteMessage(const google::protobuf::Message& holder);
   void WritePage();
+  void WriteForFoxglove();
+  std::uint16_t SchemaOf(const McapWriter::Schema& schema);
   std::uint16_t ChannelOf(const std::string& topic, const google::protobuf::Message& message);
 
   const WorldRecorderOptions options_;
@@ -63,6 +67,8 @@ class WorldRecorder {
   std::map<std::string, std::uint16_t> channels_;  ///< By topic.
   std::map<std::string, std::uint16_t> schemas_;   ///< By message type.
   std::uint16_t page_ = 0;                         ///< Channel.
+  std::unique_ptr<FoxgloveChannels> foxglove_;
+  std::vector<std::unique_ptr<ChannelReader>> readers_;  ///< Of each of its channels, by id.
   std::map<std::string, std::uint64_t> files_;
   int number_ = 0;           ///< Of the file.
   std::int64_t now_ns_ = 0;  ///< What the service told last.
