@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "client/programs/shared/base64.h"
 #include "tests/report/first_plots.h"
 #include "tests/report/page_frame.h"
 #include "tests/report/promises.h"
@@ -46,7 +47,7 @@ std::string ChartHtml(const Chart& chart, const std::string& svg, const std::str
                       const std::string& more = "") {
   std::string html = "<figure id=\"" + chart.id + "\">" + heading;
   html += "<img alt=\"" + EscapeHtml(chart.title) + "\" src=\"data:image/svg+xml;base64," +
-          Base64(svg) + "\">\n<figcaption>" + EscapeHtml(chart.caption) + more;
+          client::Base64(svg) + "\">\n<figcaption>" + EscapeHtml(chart.caption) + more;
   std::string limits;
   for (const Series& series : chart.series) {
     if (series.note.empty()) continue;

@@ -56,14 +56,6 @@ const Move& MoveOf(const Comparison& comparison, const std::string& figure) {
   throw std::logic_error(figure);
 }
 
-TEST(ReportText, Base64IsTheStandardOne) {
-  EXPECT_EQ(Base64(""), "");
-  EXPECT_EQ(Base64("f"), "Zg==");
-  EXPECT_EQ(Base64("fo"), "Zm8=");
-  EXPECT_EQ(Base64("foo"), "Zm9v");
-  EXPECT_EQ(Base64("foob"), "Zm9vYg==");
-}
-
 TEST(ReportText, DurationsAreReadable) {
   EXPECT_EQ(Duration(0.0000000123), "12.3 ns");
   EXPECT_EQ(Duration(0.25), "250 ms");

@@ -232,6 +232,9 @@ void AddFaults(v1::Results* results) {
     for (const double ms : {90.0, 120.0}) times->add_values()->set_number_value(ms);
   }
   AddRow(network, {{"group", "lock-step"}, {"name", "loss"}, {"kept", "yes"}}, {});
+  v1::Experiment* gateway = Add(results, "gateway", {{"page_bytes", 4e6}});
+  AddRow(gateway, {{"part", "cost"}},
+         {{"agents", 10000}, {"viewers", 100}, {"cores", 0.4}, {"updates_a_second_least", 9.5}});
   v1::Experiment* soak = Add(results, "soak", {});
   for (const char* bad : {"keys", "pairs"}) {
     AddRow(soak, {{"group", "beside"}, {"name", bad}, {"kept", "yes"}}, {});

@@ -274,6 +274,23 @@ Section Stress(const v1::Results& results) {
   return section;
 }
 
+Section Gateway(const v1::Results& results) {
+  Section section{"gateway", "The gateway", {}, {}, {}};
+  section.paragraphs = {
+      "Processor time of collision-gateway while a swarm in real time changes ten times a second, "
+      "with so many viewers of its page; and sizes of a recorded world as one page and as an MCAP "
+      "file."};
+  const auto costs = Select(results, "gateway", {{"part", "cost"}});
+  AddTable(TableOf("", costs,
+                   {{"agents", "agents"},
+                    {"viewers", "viewers"},
+                    {"cores", "cores"},
+                    {"updates_a_second_least", "updates a second, of the slowest viewer"}}),
+           &section);
+  AddWhole(results, "gateway", &section);
+  return section;
+}
+
 Section Trust(const v1::Results& results) {
   Section section{"trust", "Same bits, fuzzing, mutants", {}, {}, {}};
   section.paragraphs = {
@@ -293,7 +310,7 @@ Section Trust(const v1::Results& results) {
 std::vector<Section> SectionsOf(const v1::Results& results) {
   return {Precision(results),     Budget(results),  Hubbard(results), Stepping(results),
           BroadPhase(results),    Service(results), LeftOut(results), Stress(results),
-          LoadAndFaults(results), Trust(results)};
+          LoadAndFaults(results), Gateway(results), Trust(results)};
 }
 
 std::vector<MeasuredPlot> MeasuredPlots() {

@@ -80,22 +80,6 @@ std::string EscapeHtml(const std::string& text) {
   return escaped;
 }
 
-std::string Base64(const std::string& bytes) {
-  constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t at = 0; at < bytes.size(); at += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      three = three << 8 | (at + i < bytes.size() ? static_cast<unsigned char>(bytes[at + i]) : 0u);
-    }
-    for (int i = 0; i < 4; ++i) {
-      const bool filled = at + static_cast<std::size_t>(i) <= bytes.size();
-      text += filled ? kLetters[three >> (18 - 6 * i) & 63] : '=';
-    }
-  }
-  return text;
-}
-
 std::string ReadFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path + ": cannot be read");

@@ -15,7 +15,6 @@ std::string Grouped(double value);
 std::string Duration(double seconds);
 
 std::string EscapeHtml(const std::string& text);
-std::string Base64(const std::string& bytes);
 
 /// Throw std::runtime_error that names the file.
 std::string ReadFile(const std::string& path);

@@ -138,6 +138,16 @@ std::optional<Answer> BeginBracket(const v1::Results& results) {
   return Answer{*width, Duration(*width)};
 }
 
+/// Of the gateway with most agents and viewers.
+std::optional<Answer> GatewayCores(const v1::Results& results) {
+  const std::vector<Condition> most = {{"part", "cost"}, {"agents", "10000"}, {"viewers", "100"}};
+  for (const Row* row : Select(results, "gateway", most)) {
+    const auto cores = NumberOf(*row, "cores");
+    if (cores) return Answer{*cores, Rounded(*cores, 2) + " cores"};
+  }
+  return std::nullopt;
+}
+
 std::string Rate(const v1::Results& results, const std::string& figure) {
   const auto value = FigureOf(results, "service", figure);
   return value ? Rounded(*value) + " a second" : "";
@@ -266,6 +276,8 @@ std::vector<Question> AboutTheService() {
          return Beside(r, "service_event_p50_ratio_10000", Latency(r, "service_event_p50_s_10000"));
        },
        [](R r) { return NoOp(Latency(r, "network_event_p50_s_10000")); }},
+      {kService, "10,000 agents that change ten times a second, to 100 browsers: the gateway takes",
+       Kind::kAtMost, 0.5, "≤ 0.5 cores", GatewayCores, none},
       {kService, "A service fails: its successor is heard within the lease and 50 ms",
        Kind::kAtMost, 0, "always", LateTakeOvers, none},
       {kService, "A bad client floods, lies or crowds: an honest one is served as before",

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "client/programs/recordings/replayed_world.h"
+#include "client/programs/recordings/temporary_folder.h"
 #include "client/programs/recordings/world_recorder.h"
-#include "client/programs/shared/temporary_folder.h"
 
 namespace collision::gateway {
 namespace {

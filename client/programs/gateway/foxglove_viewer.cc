@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "client/programs/gateway/web/base64.h"
+#include "client/programs/shared/base64.h"
 #include "client/programs/tools/collisionctl/json/json_writer.h"
 
 namespace collision::gateway {
@@ -37,14 +37,15 @@ std::string Advertise() {
   std::vector<std::string> channels;
   for (const Channel& channel : client::Channels()) {
     const bool is_binary = channel.schema_encoding == "protobuf";
-    channels.push_back(JsonObject()
-                           .Count("id", channel.id)
-                           .Text("topic", channel.topic)
-                           .Text("encoding", channel.encoding)
-                           .Text("schemaName", channel.schema_name)
-                           .Text("schema", is_binary ? Base64(channel.schema) : channel.schema)
-                           .Text("schemaEncoding", channel.schema_encoding)
-                           .Json());
+    channels.push_back(
+        JsonObject()
+            .Count("id", channel.id)
+            .Text("topic", channel.topic)
+            .Text("encoding", channel.encoding)
+            .Text("schemaName", channel.schema_name)
+            .Text("schema", is_binary ? client::Base64(channel.schema) : channel.schema)
+            .Text("schemaEncoding", channel.schema_encoding)
+            .Json());
   }
   return JsonObject().Text("op", "advertise").Add("channels", client::JsonArray(channels)).Json();
 }

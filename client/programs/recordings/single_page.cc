@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "client/programs/shared/base64.h"
+
 namespace collision::client {
 namespace {
 
@@ -29,22 +31,6 @@ std::string Gzipped(const std::string& bytes) {
   deflateEnd(&stream);
   if (!is_whole) throw std::runtime_error("the page is too large");
   return packed;
-}
-
-std::string Base64(const std::string& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(bytes.size() / 3 * 4 + 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k > bytes.size() ? '=' : kDigits[three >> (18 - 6 * k) & 63];
-    }
-  }
-  return text;
 }
 
 std::string EscapedForHtml(const std::string& text) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "client/programs/gateway/web/base64.h"
+#include "client/programs/shared/base64.h"
 #include "idl/sha256.h"
 
 namespace collision::gateway {
@@ -74,7 +74,7 @@ std::string SecurityPolicyFor(const std::string& index) {
   const std::size_t end = index.find(kEnd, begin);
   if (begin != std::string::npos && end != std::string::npos) {
     const std::size_t from = begin + kBegin.size();
-    map_hash = " 'sha256-" + Base64(Sha256(index.substr(from, end - from))) + "'";
+    map_hash = " 'sha256-" + client::Base64(Sha256(index.substr(from, end - from))) + "'";
   }
   return "default-src 'none'; script-src 'self'" + map_hash +
          "; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; connect-src 'self'; "

@@ -9,10 +9,10 @@
 
 #include "client/programs/chart/chart.h"
 #include "client/programs/recordings/replayed_world.h"
+#include "client/programs/recordings/temporary_folder.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/stop_signal.h"
-#include "client/programs/shared/temporary_folder.h"
 #include "client/programs/tools/recordings/curves.h"
 #include "client/programs/tools/recordings/replay_options.h"
 

@@ -1,4 +1,4 @@
-#include "client/programs/shared/temporary_folder.h"
+#include "client/programs/recordings/temporary_folder.h"
 
 #include <cerrno>
 #include <cstdlib>

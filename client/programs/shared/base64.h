@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace collision::gateway {
+namespace collision::client {
 
 /// With padding. Source: RFC 4648, section 4.
 inline std::string Base64(const std::string& bytes) {
@@ -23,4 +23,4 @@ inline std::string Base64(const std::string& bytes) {
   return text;
 }
 
-}  // namespace collision::gateway
+}  // namespace collision::client
