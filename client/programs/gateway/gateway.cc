@@ -162,8 +162,10 @@ class Gateway {
   WebHandlers Handlers() {
     return {.answer = [this](const WebRequest& request) { return site_.Answer(request); },
             .upload_path = "/convert",
-            .upload = [this](WebRequest request,
-                             WebReply reply) { conversion_.Start(request.body, std::move(reply)); },
+            .upload =
+                [this](WebRequest request, WebReply reply) {
+                  conversion_.Start(std::move(request.body), std::move(reply));
+                },
             .protocols = {kPageProtocol, kFoxgloveProtocol, kFoxgloveOldProtocol},
             .connect = [this](const std::string& protocol) -> std::unique_ptr<WebViewer> {
               return std::make_unique<CountedViewer>(ViewerOf(protocol), &viewers_);

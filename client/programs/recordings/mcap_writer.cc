@@ -20,7 +20,6 @@ constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
 constexpr char kCompression[] = "zstd";
 constexpr int kCompressionLevel = 3;
 constexpr std::size_t kIdsMax = 65535;
-constexpr std::size_t kRecordHead = 9;  ///< Opcode and length.
 
 enum class Opcode : std::uint8_t {
   kHeader = 0x01,

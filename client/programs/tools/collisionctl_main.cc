@@ -30,9 +30,7 @@
 #include "client/programs/tools/collisionctl/view_options.h"
 #include "client/programs/tools/collisionctl/why/agent_lookup.h"
 #include "client/programs/tools/collisionctl/why/why_page.h"
-#include "client/programs/tools/recordings/convert.h"
-#include "client/programs/tools/recordings/export.h"
-#include "client/programs/tools/recordings/plot.h"
+#include "client/programs/tools/recordings/commands.h"
 #include "client/programs/tools/sphere_tree/command.h"
 #include "client/programs/tools/suggest_bounds/command.h"
 #include "idl/limits.h"
@@ -300,13 +298,7 @@ int Main(int argc, char** argv) {
   DoctorOptions doctor;
   const CLI::App* doctor_command = AddDoctorCommand(&app, &doctor);
   const CLI::App* recordings = AddRecordings(&app, &options.kept);
-  ConvertOptions mcap;
-  const CLI::App* convert = AddConvertCommand(&app, &mcap);
-  const CLI::App* record = AddRecordCommand(&app, &mcap);
-  ExportOptions single;
-  const CLI::App* export_command = AddExportCommand(&app, &single);
-  PlotOptions plot;
-  const CLI::App* plot_command = AddPlotCommand(&app, &plot);
+  const RecordingCommands recorded(&app);
   AddExamples(&app);
   AddVersion(&app);
   if (const std::optional<int> code = Parse(&app, argc, argv)) return *code;
@@ -316,10 +308,7 @@ int Main(int argc, char** argv) {
     if (options.json) tree.report = "json";
     return RunSphereTree(tree);
   }
-  if (export_command->parsed()) return RunExport(single);
-  if (plot_command->parsed()) return RunPlot(plot);
-  if (convert->parsed()) return RunConvert(mcap);
-  if (record->parsed()) return RunRecord(mcap, options.monitor, options.timeout_s);
+  if (const auto code = recorded.Run(options.monitor, options.timeout_s)) return *code;
   if (make_certificates->parsed()) return RunMakeCertificates(certificates, GivenPlace(app));
   if (suggest_bounds->parsed()) {
     const MonitorOptions& place = options.monitor;

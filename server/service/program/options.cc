@@ -84,6 +84,25 @@ CLI::Validator NotEmpty() {
   return CLI::Validator(check, "");
 }
 
+/// Returns the option --replay.
+CLI::Option* DefineReplay(CLI::App* app, Options* options) {
+  auto* replay =
+      app->add_option("--replay", options->replay_file,
+                      "Repeat the run that --record wrote to FILE, without DDS, with its own "
+                      "configuration; prints each event of its readers as a line of JSON. FILE may "
+                      "be a segment of the flight recorder, or a folder of them (state_dir)");
+  AddTime(app, "--from", &options->from_ns,
+          "Print what was told from this time (UTC) on, as 2026-11-29T03:00:00; of a folder, begin "
+          "with the segment that contains it")
+      ->needs(replay);
+  AddTime(app, "--until", &options->until_ns, "Replay up to this time (UTC)")->needs(replay);
+  app->add_flag("--transcript", options->transcript,
+                "Print all inputs and all that the service tells, as bytes for programs "
+                "(idl/recording.proto), instead of events; from the begin of the segment on")
+      ->needs(replay);
+  return replay;
+}
+
 void Define(CLI::App* app, Options* options) {
   auto* config =
       app->add_option("--config", options->config_file,
@@ -123,20 +142,7 @@ void Define(CLI::App* app, Options* options) {
   auto* record = app->add_option("--record", options->record_file,
                                  "Write every input to FILE; a former FILE is kept as FILE.1, "
                                  "up to FILE.3");
-  auto* replay =
-      app->add_option("--replay", options->replay_file,
-                      "Repeat the run that --record wrote to FILE, without DDS, with its own "
-                      "configuration; prints each event of its readers as a line of JSON. FILE may "
-                      "be a segment of the flight recorder, or a folder of them (state_dir)");
-  AddTime(app, "--from", &options->from_ns,
-          "Print what was told from this time (UTC) on, as 2026-11-29T03:00:00; of a folder, begin "
-          "with the segment that contains it")
-      ->needs(replay);
-  AddTime(app, "--until", &options->until_ns, "Replay up to this time (UTC)")->needs(replay);
-  app->add_flag("--transcript", options->transcript,
-                "Print all inputs and all that the service tells, as bytes for programs "
-                "(idl/recording.proto), instead of events; from the begin of the segment on")
-      ->needs(replay);
+  auto* replay = DefineReplay(app, options);
   for (auto* file : {config, record, replay}) file->type_name("FILE")->check(NotEmpty());
   check->needs(config)->excludes(print);
   for (auto* other : {config, check, print, world, domain, record}) replay->excludes(other);
