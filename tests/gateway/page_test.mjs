@@ -41,7 +41,7 @@ async function twoThatMeet(domain) {
 }
 
 test("a contact appears at its time, in its bracket, and can be looked at", async () => {
-  const { world, page } = await twoThatMeet(140);
+  const { world, gateway, page } = await twoThatMeet(140);
   try {
     await page.waitForFunction(() => collision.world.agents.size === 2);
     const seen = await page.waitForFunction(() => [...collision.world.standing].find(({ event }) =>
@@ -66,6 +66,8 @@ test("a contact appears at its time, in its bracket, and can be looked at", asyn
     });
     await page.mouse.move(bar.x, bar.y);
     await page.getByRole("tooltip").getByText("ended: begins").waitFor();
+    await page.getByRole("tooltip").getByText(/here, at [\d.]+ s: centres [\d.e-]+ m apart, their/)
+      .waitFor();
     const shown = await page.evaluate(() => collision.shownTime());
     assert.ok(shown > seen.event.begin.earliest_s - 0.2 && shown < seen.event.end.latest_s + 0.2,
               `the world is shown at ${shown}`);
@@ -85,6 +87,16 @@ test("a contact appears at its time, in its bracket, and can be looked at", asyn
       return { t, gap: Math.abs(a - b) };
     });
     assert.ok(Math.abs(apart.gap - (10 - 2 * apart.t)) < 0.1, JSON.stringify(apart));
+
+    // A page that is opened now has the past of before, too.
+    const later = await openPage(browser, gateway.address);
+    const first = await until("the past has come", () => later.evaluate(() => {
+      const [agent] = collision.world.agents.values();
+      return agent && agent.history.states.length > 3 && agent.history.states[0].t;
+    }));
+    assert.ok(first < 2, `its past begins at ${first}`);
+    assert.deepEqual(later.faults, []);
+    await later.context().close();
     assert.deepEqual(page.faults, []);
   } finally {
     await world.end();
@@ -212,9 +224,12 @@ test("a viewer that stands still costs nothing, and goes on with what is newest"
       const { readItems } = await import("/source/items.js");
       let now = null;
       while (window.still.messages.length < 3) await new Promise((go) => setTimeout(go, 10));
-      readItems(window.still.messages[2], (item) => {
-        if (item.item === "now") now = item.now_s;
-      }, () => {});
+      readItems(window.still.messages[2], {
+        take: (item) => {
+          if (item.item === "now") now = item.now_s;
+        },
+        takeState: () => {},
+      });
       return collision.world.now.t - now;
     });
     assert.ok(Math.abs(newest) < 2, `what it hears first is ${newest} s old`);

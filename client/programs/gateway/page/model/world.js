@@ -229,6 +229,22 @@ export class World extends EventTarget {
     return this.byId.get(idOf(reference));
   }
 
+  /**
+   * How far apart the two of an event are at `t`, by the states that were told: { centres, balls },
+   * the latter between the balls of their radii [m]; null: one of them is not known then, or has no
+   * centre.
+   */
+  apart(event, t) {
+    const places = [event.lower, event.higher].map((side) => {
+      const agent = this.agentOf(side), state = agent?.history.at(t);
+      return state && !agent.declaration.half_space
+        ? { p: positionAt(state, t), radius: agent.declaration.radius_m ?? 0 } : null;
+    });
+    if (places.includes(null)) return null;
+    const centres = Math.hypot(...places[0].p.map((x, k) => x - places[1].p[k]));
+    return { centres, balls: centres - places[0].radius - places[1].radius };
+  }
+
   agentByKey(key) {
     for (const agent of this.agents.values()) if (agent.key === key) return agent;
     return undefined;

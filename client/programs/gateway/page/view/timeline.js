@@ -67,7 +67,7 @@ export class Timeline {
     this.onHover(one, t);
     this.tip.hidden = !one;
     if (!one) return;
-    this.tip.replaceChildren(...describe(one.event, t));
+    this.tip.replaceChildren(...describe(one.event, t, this.world.apart(one.event, t)));
     const x = move.clientX - left, y = move.clientY - top;
     this.tip.style.left = `${Math.min(x + 14, this.canvas.clientWidth - 240)}px`;
     this.tip.style.bottom = `${Math.max(4, this.canvas.clientHeight - y + 12)}px`;
@@ -190,8 +190,8 @@ function niceStep(least) {
   return [1, 2, 5, 10].map((n) => n * power).find((step) => step >= least) ?? 10 * power;
 }
 
-/** What the pair is at `t`, for the tip. */
-function describe(event, t) {
+/** What the pair is at `t`, for the tip; `apart`: World.apart(). */
+function describe(event, t, apart) {
   const lines = [
     element("strong", {}, `${fullName(event.lower)} – ${fullName(event.higher)}`),
     element("div", {}, `${event.status}: begins ${bracket(event.begin)}`),
@@ -209,7 +209,9 @@ function describe(event, t) {
     }
     lines.push(element("div", {}, `point (${near.point_m.map(show).join(", ")}) m`));
   }
-  lines.push(element("div", {}, `here: ${t.toFixed(3)} s`));
+  lines.push(element("div", {}, `here, at ${t.toFixed(3)} s: ` + (apart === null ? "not known"
+    : `centres ${show(apart.centres)} m apart, their balls ` +
+      (apart.balls < 0 ? "overlap" : `${show(apart.balls)} m`))));
   return lines;
 }
 
