@@ -79,8 +79,10 @@ CLI::App* AddRecordCommand(CLI::App* app, ConvertOptions* options) {
 int RunConvert(const ConvertOptions& options) {
   std::unique_ptr<ReplayedWorld> replayed;
   try {
+    CheckOutput(options.output, options.input);
     replayed =
         std::make_unique<ReplayedWorld>(ReplayOf(options.input, options.from, options.until));
+    if (replayed->is_over()) return replayed->Finish();  // no recording: a former file stays
   } catch (const BadInput& error) {
     return FailWith(error.what(), kExitUsage);
   } catch (const std::runtime_error& error) {
@@ -97,7 +99,8 @@ int RunConvert(const ConvertOptions& options) {
       recorder.Poll({});
       progress.Tell(recorder.now_ns());
     }
-    const bool is_stopped = !world.is_over();
+    // The replay is stopped by the same Ctrl-C.
+    const bool is_stopped = StopRequested() || !world.is_over();
     recorder.Close();
     PrintFiles(recorder);
     if (is_stopped) return FailWith("stopped: the rest of the recording is missing", kExitRefused);
@@ -109,23 +112,29 @@ int RunConvert(const ConvertOptions& options) {
 
 int RunRecord(const ConvertOptions& options, const MonitorOptions& place, double timeout_s) {
   using Clock = std::chrono::steady_clock;
+  std::unique_ptr<Receiver> receiver;
+  std::unique_ptr<AgentsWatcher> watcher;
   try {
     MonitorOptions all = place;
     all.simulators = true;
     std::cerr << "collisionctl: " << PlaceText(place.world, place.domain) << '\n';
-    WorldRecorder recorder(ConnectMonitor(all),
+    receiver = ConnectMonitor(all);
+    if (options.watch) {
+      watcher = std::make_unique<AgentsWatcher>(
+          ConnectWatcher({place.world, place.domain, place.credentials}),
+          Nanoseconds(1 / options.rate_hz));
+    }
+  } catch (const std::runtime_error& error) {
+    return FailWith(error.what(), kExitUnavailable);
+  }
+  try {
+    WorldRecorder recorder(std::move(receiver),
                            {.path = options.output, .rate_hz = options.rate_hz, .wall_ns = [] {
                               return std::chrono::duration_cast<std::chrono::nanoseconds>(
                                          std::chrono::system_clock::now().time_since_epoch())
                                   .count();
                             }});
     CatchStopSignals();
-    std::unique_ptr<AgentsWatcher> watcher;
-    if (options.watch) {
-      watcher = std::make_unique<AgentsWatcher>(
-          ConnectWatcher({place.world, place.domain, place.credentials}),
-          Nanoseconds(1 / options.rate_hz));
-    }
     const Clock::time_point begin = Clock::now();
     const auto is_due = [begin](double seconds) {
       return Clock::now() - begin >= Nanoseconds(seconds);
@@ -144,7 +153,7 @@ int RunRecord(const ConvertOptions& options, const MonitorOptions& place, double
     return FailWith("no service was heard: is the world right? see collisionctl doctor",
                     kExitUnavailable);
   } catch (const std::runtime_error& error) {
-    return FailWith(error.what(), kExitUnavailable);
+    return FailWith(error.what(), kExitOutputFailed);
   }
 }
 

@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <system_error>
 #include <utility>
 
 #include "client/programs/shared/command_line.h"
@@ -53,6 +55,13 @@ int FailWith(const std::string& what, int code) {
 
 ReplayRequest ReplayOf(const std::string& file, const std::string& from, const std::string& until) {
   return {.file = file, .from_ns = TimeOf("--from", from), .until_ns = TimeOf("--until", until)};
+}
+
+void CheckOutput(const std::string& output, const std::string& recording) {
+  std::error_code none;  // where one of them does not exist
+  if (std::filesystem::equivalent(output, recording, none)) {
+    throw BadInput(output + ": is the recording itself; name another file");
+  }
 }
 
 Progress::Progress(std::string what)

@@ -21,6 +21,9 @@ int FailWith(const std::string& what, int code);
 /// Throws BadInput for what is no time.
 ReplayRequest ReplayOf(const std::string& file, const std::string& from, const std::string& until);
 
+/// Throws BadInput if the output would take the place of the recording.
+void CheckOutput(const std::string& output, const std::string& recording);
+
 /// One line on standard error, at most once a second, if that is a terminal: how far it is.
 class Progress {
  public:
