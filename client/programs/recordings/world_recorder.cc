@@ -67,32 +67,11 @@ std::optional<std::int64_t> NowOf(const v1::Output& output) {
 
 }  // namespace
 
-/// Hands on what a receiver hears, and lets the recorder hear it first.
-class WorldRecorder::Tee final : public Receiver {
- public:
-  Tee(std::unique_ptr<Receiver> inner, WorldRecorder* recorder)
-      : inner_(std::move(inner)), recorder_(*recorder) {}
-
-  void Receive(std::chrono::nanoseconds timeout, Arrivals* arrivals) override {
-    Arrivals more;
-    inner_->Receive(timeout, &more);
-    recorder_.Hear(more);
-    std::ranges::move(more.outputs, std::back_inserter(arrivals->outputs));
-    std::ranges::move(more.inputs, std::back_inserter(arrivals->inputs));
-  }
-  bool service_alive() const override { return inner_->service_alive(); }
-  std::optional<std::string> TakeCredentialsWarning() override {
-    return inner_->TakeCredentialsWarning();
-  }
-  std::chrono::steady_clock::time_point Now() const override { return inner_->Now(); }
-
- private:
-  const std::unique_ptr<Receiver> inner_;
-  WorldRecorder& recorder_;
-};
-
 WorldRecorder::WorldRecorder(std::unique_ptr<Receiver> receiver, WorldRecorderOptions options)
-    : options_(std::move(options)), stream_(std::make_unique<Tee>(std::move(receiver), this)) {
+    : options_(std::move(options)),
+      times_(PeriodNs(options_.rate_hz)),
+      stream_(std::make_unique<HeardFirst>(std::move(receiver),
+                                           [this](const Arrivals& arrivals) { Hear(arrivals); })) {
   Begin();
 }
 
@@ -101,7 +80,7 @@ WorldRecorder::~WorldRecorder() = default;
 std::size_t WorldRecorder::Poll(std::chrono::nanoseconds timeout) {
   const std::size_t messages = stream_.Poll(timeout);
   if (messages == 0) return 0;
-  if (now_ns_ >= page_due_ns_) WritePage();
+  if (times_.IsDue(now_ns_)) WritePage();
   if (options_.wall_ns() >= chunk_due_ns_) {
     chunk_due_ns_ = options_.wall_ns() + kChunkPeriodNs;
     file_->EndChunk();
@@ -130,9 +109,10 @@ void WorldRecorder::Begin() {
         std::make_unique<ChannelReader>(foxglove_.get(), static_cast<ChannelId>(channel.id)));
   }
   stream_.BeginAnew();
+  times_.BeginAnew();
   newest_ns_ = std::numeric_limits<std::int64_t>::min();
   has_agents_ = false;
-  page_due_ns_ = chunk_due_ns_ = std::numeric_limits<std::int64_t>::min();
+  chunk_due_ns_ = std::numeric_limits<std::int64_t>::min();
 }
 
 void WorldRecorder::Hear(const Arrivals& arrivals) {
@@ -142,12 +122,13 @@ void WorldRecorder::Hear(const Arrivals& arrivals) {
   }
   // What a service says before the first agent of another epoch belongs to the former.
   if (HasAgents(arrivals)) {
-    if (has_agents_ && now_ns_ < newest_ns_ - kBackNs) {
+    if (has_agents_ && (stream_.IsOver() || now_ns_ < newest_ns_ - kBackNs)) {
       Close();
       Begin();
     }
     has_agents_ = true;
   }
+  if (times_.AreStatesDue(arrivals)) WritePage();
   newest_ns_ = std::max(newest_ns_, now_ns_);
   for (const v1::Input& input : arrivals.inputs) WriteMessage(input);
   for (const v1::Output& output : arrivals.outputs) WriteMessage(output);
@@ -187,12 +168,13 @@ std::uint16_t WorldRecorder::SchemaOf(const McapWriter::Schema& schema) {
 }
 
 void WorldRecorder::WritePage() {
-  page_due_ns_ = now_ns_ + static_cast<std::int64_t>(1e9 / options_.rate_hz);
+  times_.Taken(now_ns_);
   if (stream_.IsOver()) return;
   std::string message;
   for (const Board::Item& item : stream_.TakeNew()) message += *item.payload;
-  if (message.empty()) return;  // nothing is new
-  file_->Write(page_, FileTime(now_ns_), FileTime(options_.wall_ns()), message);
+  if (message.empty()) return;
+  // Each builds upon those before: readers by time must get them in this order.
+  file_->Write(page_, FileTime(newest_ns_), FileTime(options_.wall_ns()), message);
   WriteForFoxglove();
 }
 

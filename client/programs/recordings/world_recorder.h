@@ -10,6 +10,7 @@
 
 #include "client/library/network/message_monitor.h"
 #include "client/programs/foxglove/foxglove_channels.h"
+#include "client/programs/recordings/heard_first.h"
 #include "client/programs/recordings/mcap_writer.h"
 #include "client/programs/recordings/page_stream.h"
 
@@ -51,8 +52,6 @@ class WorldRecorder {
   const WorldView& view() const { return stream_.scene().view(); }
 
  private:
-  class Tee;
-
   void Hear(const Arrivals& arrivals);
   void Begin();
   void WriteMessage(const google::protobuf::Message& holder);
@@ -62,6 +61,7 @@ class WorldRecorder {
   std::uint16_t ChannelOf(const std::string& topic, const google::protobuf::Message& message);
 
   const WorldRecorderOptions options_;
+  TakingTimes times_;  ///< Of what the page is told.
   PageStream stream_;
   std::unique_ptr<McapWriter> file_;
   std::map<std::string, std::uint16_t> channels_;  ///< By topic.
@@ -74,7 +74,6 @@ class WorldRecorder {
   std::int64_t now_ns_ = 0;  ///< What the service told last.
   std::int64_t newest_ns_ = std::numeric_limits<std::int64_t>::min();  ///< In the file.
   bool has_agents_ = false;                                            ///< In the file.
-  std::int64_t page_due_ns_ = 0;                                       ///< In the world's time.
   std::int64_t chunk_due_ns_ = 0;                                      ///< By the wall clock.
 };
 

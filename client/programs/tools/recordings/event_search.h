@@ -10,7 +10,8 @@
 
 namespace collision::client {
 
-/// What `--around` says: nothing (the first contact), the number of a contact ("7"), or two agents
+/// What `--around` says: nothing (the first contact), the number of a contact ("7", which one of
+/// its revisions has as contacts_sequence), or two agents
 /// ("ada,bob"; each AGENT or SIMULATOR:AGENT), of which it is the first contact, or else their
 /// first event. Takes the events of a replay, one revision after the other. One thread.
 class EventSearch {

@@ -9,9 +9,11 @@
 #include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "client/library/network/conversion.h"
+#include "client/programs/recordings/heard_first.h"
 #include "client/programs/recordings/page_stream.h"
 #include "client/programs/recordings/replayed_world.h"
 #include "client/programs/recordings/single_page.h"
@@ -32,7 +34,7 @@ the agents around it and their past, in any browser.
 
 Examples:
   collisionctl export run.rec --html contact.html                    the first contact
-  collisionctl export run.rec --html contact.html --around 7         the seventh
+  collisionctl export run.rec --html contact.html --around 7         that of number 7
   collisionctl export run.rec --html near.html --around ada,bob --before 120
 )";
 
@@ -117,14 +119,14 @@ Found Find(const ExportOptions& options, const ReplayRequest& request) {
 /// What the page is told of events: the newest of each, without those that came to nothing.
 class EventItems {
  public:
-  explicit EventItems(const v1::CollisionEvent& wanted) : wanted_(KeyOf(wanted)) {}
+  explicit EventItems(const v1::CollisionEvent& wanted) : wanted_(wanted) {}
 
   /// Whether the item is about an event.
   bool Take(const Board::Item& item, const EventBook& book) {
     if (item.name.starts_with("gone/")) return true;
     if (!item.name.starts_with("event/")) return false;
     const EventBook::Entry& entry = book.At(std::stoull(item.name.substr(item.name.find('/') + 1)));
-    if (KeyOf(entry.newest) == wanted_) wanted_item_ = item.name;
+    if (IsWanted(entry.newest)) wanted_item_ = item.name;
     entry.CameToNothing() ? static_cast<void>(newest_.erase(item.name))
                           : static_cast<void>(newest_[item.name] = item.payload);
     return true;
@@ -140,48 +142,94 @@ class EventItems {
   const std::string& wanted_item() const { return wanted_item_; }
 
  private:
-  const EventKey wanted_;
+  /// In another epoch the same two may meet as well.
+  bool IsWanted(const v1::CollisionEvent& event) const {
+    return KeyOf(event) == KeyOf(wanted_) &&
+           event.stamp().service_id() == wanted_.stamp().service_id() &&
+           event.stamp().epoch() == wanted_.stamp().epoch();
+  }
+
+  const v1::CollisionEvent wanted_;
   std::string wanted_item_;
   std::map<std::string, Payload> newest_;
 };
 
-struct Collected {
-  std::vector<std::string> messages;
-  std::string event_key;  ///< Of the page.
-};
+/// The second pass: what the page is told from the begin of the window on.
+class Collection {
+ public:
+  Collection(const ExportOptions& options, const Found& found)
+      : step_(StepFor(found.radius_m)),
+        window_(found.window),
+        events_(found.event),
+        times_(PeriodNs(options.rate_hz)) {}
 
-/// The second pass.
-Collected Collect(const ExportOptions& options, const ReplayRequest& request, const Found& found) {
-  auto replayed = std::make_unique<ReplayedWorld>(request);
-  const ReplayedWorld& world = *replayed;
-  PageStream stream(std::move(replayed));
-  Progress progress("export");
-  const double step = StepFor(found.radius_m);
-  Collected collected{.messages = {""}, .event_key = ""};
-  EventItems events(found.event);
-  bool has_begun = false;
-  std::int64_t due_ns = std::numeric_limits<std::int64_t>::min();
-  while (!world.is_over()) {
-    stream.Poll({});
-    const std::int64_t now_ns = stream.scene().now_ns();
-    progress.Tell(now_ns);
-    if (has_begun && (now_ns > found.window.until_ns || stream.IsOver())) break;
-    if (now_ns < due_ns) continue;
-    due_ns = now_ns + Ns(1 / options.rate_hz);
-    if (!has_begun && now_ns >= found.window.from_ns) {
-      has_begun = true;
-      stream.BeginAnew();
+  /// Requires that it outlives the stream.
+  HeardFirst::HearFunction Hear(PageStream* const& stream) {
+    return [this, &stream](const Arrivals& arrivals) {
+      if (times_.AreStatesDue(arrivals)) Take(stream);
+    };
+  }
+
+  /// What came since the last call. False: that was all.
+  bool Follow(PageStream* stream) {
+    const std::int64_t now_ns = stream->scene().now_ns();
+    if (has_begun_ && (now_ns > window_.until_ns || stream->IsOver())) {
+      if (!events_.wanted_item().empty()) return false;
+      has_begun_ = false;  // these times were those of a former epoch
+      messages_.clear();
+    }
+    if (now_ns < std::exchange(former_ns_, now_ns)) times_.BeginAnew();
+    if (times_.IsDue(now_ns)) Take(stream);
+    return true;
+  }
+
+  std::vector<std::string> Messages() && {
+    messages_.insert(messages_.begin(), events_.All());
+    return std::move(messages_);
+  }
+
+  /// Of the page.
+  const std::string& event_key() const { return events_.wanted_item(); }
+
+ private:
+  void Take(PageStream* stream) {
+    const std::int64_t now_ns = stream->scene().now_ns();
+    times_.Taken(now_ns);
+    if (!has_begun_ && now_ns >= window_.from_ns && now_ns <= window_.until_ns) {
+      has_begun_ = true;
+      stream->BeginAnew();
     }
     std::string message;
-    for (const Board::Item& item : stream.TakeNew(step)) {
-      const bool is_of_event = events.Take(item, stream.scene().events());
-      if (has_begun && !is_of_event) message += *item.payload;
+    for (const Board::Item& item : stream->TakeNew(step_)) {
+      const bool is_of_event = events_.Take(item, stream->scene().events());
+      if (has_begun_ && !is_of_event) message += *item.payload;
     }
-    if (!message.empty()) collected.messages.push_back(std::move(message));
+    if (!message.empty()) messages_.push_back(std::move(message));
   }
-  collected.messages[0] = events.All();
-  collected.event_key = events.wanted_item();
-  return collected;
+
+  const double step_;
+  const Window window_;
+  EventItems events_;
+  TakingTimes times_;
+  std::vector<std::string> messages_;
+  bool has_begun_ = false;
+  std::int64_t former_ns_ = std::numeric_limits<std::int64_t>::min();
+};
+
+Collection Collect(const ExportOptions& options, const ReplayRequest& request, const Found& found) {
+  Collection collection(options, found);
+  auto replayed = std::make_unique<ReplayedWorld>(request);
+  const ReplayedWorld& world = *replayed;
+  PageStream* heard = nullptr;
+  PageStream stream(std::make_unique<HeardFirst>(std::move(replayed), collection.Hear(heard)));
+  heard = &stream;
+  Progress progress("export");
+  while (!world.is_over()) {
+    stream.Poll({});
+    progress.Tell(stream.scene().now_ns());
+    if (!collection.Follow(&stream)) break;
+  }
+  return collection;
 }
 
 }  // namespace
@@ -210,13 +258,14 @@ CLI::App* AddExportCommand(CLI::App* app, ExportOptions* options) {
 
 int RunExport(const ExportOptions& options) {
   try {
+    CheckOutput(options.html, options.input);
     const std::string page_template = ReadTemplate(options.page_template);
     const ReplayRequest request = ReplayOf(options.input, options.from, options.until);
     const Found found = Find(options, request);
-    const Collected collected = Collect(options, request, found);
-    const std::string name = std::filesystem::path(options.input).filename().string();
-    const std::string page = SinglePage(
-        page_template, {.name = name, .event_key = collected.event_key}, collected.messages);
+    Collection collected = Collect(options, request, found);
+    const SinglePageTitle title{.name = std::filesystem::path(options.input).filename().string(),
+                                .event_key = collected.event_key()};
+    const std::string page = SinglePage(page_template, title, std::move(collected).Messages());
     std::ofstream file(options.html, std::ios::binary | std::ios::trunc);
     if (!(file << page).flush())
       return FailWith(options.html + ": cannot be written", kExitOutputFailed);
