@@ -11,6 +11,7 @@ import { seconds, worldTime } from "./view/format.js";
 const $ = (id) => document.getElementById(id);
 const TABLES_MS = 500;   // Tables are read, not watched.
 const TABLES_REST = 20;  // Of the time that they take, so that the view moves.
+const LIVE_S = 600;      // So far back what is live can be looked at.
 const REST_MAX_MS = 100; // After a frame, so that messages get their turn.
 
 const world = new World();
@@ -168,19 +169,28 @@ function draw(began) {
   setTimeout(() => requestAnimationFrame(draw), Math.min(REST_MAX_MS, took));
 }
 
+/** What the controls of time are for: the last `length` seconds of what is shown. */
+function nameControls(length, scrub, open, live) {
+  $("scrub").min = -length;
+  $("scrub").setAttribute("aria-label", scrub);
+  $("open").textContent = open;
+  $("live").textContent = live;
+}
+
 drawLegend($("legend"));
 let source = null;
 const opening = new Opening(world, $("open"), $("file"), {
   tell: (text) => (state.told = text),
   begin: () => source?.close(),
-  opened: (name, key) => {
+  failed: () => {
+    if (world.player) return;  // a former recording is still there
+    nameControls(LIVE_S, "Seconds before now", "Open file", "Live");
+    source?.goOn();
+  },
+  opened: (key) => {
     const { player } = world;
-    state.told = `${name}: ${seconds(player.end - player.begin)} of its world`;
-    $("scrub").min = player.begin - player.end;
-    $("scrub").setAttribute("aria-label", "Seconds before the end");
+    nameControls(player.end - player.begin, "Seconds before the end", "Back to what is live", "End");
     $("open").hidden = own !== null;
-    $("open").textContent = "Back to what is live";
-    $("live").textContent = "End";
     const event = world.events.get(key);
     pause(event?.event.begin.earliest_s ?? player.begin);
     if (event) choose({ event });

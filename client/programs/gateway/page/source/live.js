@@ -18,6 +18,7 @@ export class LiveSource {
   }
 
   connect() {
+    if (this.isClosed) return;
     const address = new URL("ws", location.href);
     address.protocol = address.protocol.replace("http", "ws");
     address.hash = "";
@@ -76,6 +77,13 @@ export class LiveSource {
   close() {
     this.isClosed = true;
     this.socket.close();
+  }
+
+  /** The recording could not be shown. */
+  goOn() {
+    if (!this.isClosed) return;
+    this.isClosed = false;
+    this.connect();
   }
 
   lookAtSilence() {

@@ -2,10 +2,15 @@
 import { converted, load, messagesIn, messagesOf } from "../source/recorded.js";
 import { seconds } from "./format.js";
 
-/** `tell(text)`: how far it is, or what is wrong. `begin()`: what is live ends. `opened(name)`. */
+const TOLD_MS = 10000;  // What is wrong with a file; then the state of the service counts again.
+
+/**
+ * `tell(text)`: how far it is, or what is wrong. `begin()`: what is live ends. `failed()`: it goes
+ * on. `opened(event)`: all is there.
+ */
 export class Opening {
   constructor(world, button, input, callbacks) {
-    Object.assign(this, { world, callbacks, isBusy: false });
+    Object.assign(this, { world, callbacks, isBusy: false, shown: "" });
     button.addEventListener("click", () => (world.player ? location.reload() : input.click()));
     input.addEventListener("change", () => input.files.length > 0 && this.open(input.files[0]));
     addEventListener("dragover", (drag) => drag.preventDefault());
@@ -19,14 +24,17 @@ export class Opening {
   async open(file) {
     if (this.isBusy) return;
     this.isBusy = true;
-    const { tell } = this.callbacks;
+    clearTimeout(this.timer);
+    const { tell, failed } = this.callbacks;
     try {
       tell(`${file.name}: being read …`);
       const isMcap = (await file.slice(1, 5).text()) === "MCAP";
       if (!isMcap) tell(`${file.name}: the gateway lets collisiond replay it …`);
       await this.show(messagesOf(isMcap ? file : await converted(file)), file.name);
     } catch (error) {
+      failed();
       tell(`${file.name} cannot be shown: ${error.message}`);
+      this.timer = setTimeout(() => tell(this.shown), TOLD_MS);
     }
     this.isBusy = false;
   }
@@ -44,7 +52,14 @@ export class Opening {
   /** `event`: the key of the one that is shown first. */
   async show(messages, name, event) {
     const { tell, begin, opened } = this.callbacks;
-    await load(this.world, messages, begin, (t) => t !== undefined && tell(`${name}: ${seconds(t)} …`));
-    opened(name, event);
+    const anew = () => {
+      this.shown = "";
+      begin();
+    };
+    await load(this.world, messages, anew, (t) => t !== undefined && tell(`${name}: ${seconds(t)} …`));
+    const { player } = this.world;
+    this.shown = `${name}: ${seconds(player.end - player.begin)} of its world`;
+    tell(this.shown);
+    opened(event);
   }
 }
