@@ -8,6 +8,8 @@
 #include <cstring>
 #include <limits>
 
+#include "tests/support/random.h"
+
 namespace collision::client {
 namespace {
 
@@ -130,6 +132,75 @@ TEST(StateTable, AnAgentThatLeftHasNoStateAndKeepsItsNumber) {
   EXPECT_EQ(At<double>(table.Pack(table.TakeChanged().at(0)), 8 + 16), 1) << "of an earlier run";
   table.Clear(7, 0);
   EXPECT_EQ(At<std::uint32_t>(table.Pack(table.TakeChanged().at(0)), 8), 0u);
+}
+
+/// Rows of PackAfter(), one behind the other.
+std::vector<std::string> RowsOf(const std::string& planes) {
+  constexpr std::size_t kRow = StateTable::kHeaderBytes + StateTable::kStateBytes;
+  EXPECT_EQ(planes.size() % kRow, 0u);
+  const std::size_t count = planes.size() / kRow;
+  std::vector<std::string> rows(count);
+  for (std::size_t at = 0; at < planes.size(); ++at) rows[at % count] += planes[at];
+  return rows;
+}
+
+// Goal:   after a change come the agents that have changed since, as chunks have them, and no more.
+TEST(StateTable, PacksEachAgentThatHasChangedSince) {
+  StateTable table;
+  EXPECT_EQ(table.PackAfter(0), "");
+  v1::AgentStates states = StatesOf(7);
+  for (std::uint32_t slot = 0; slot < 5; ++slot) Add(&states, slot, 10.5 * slot, kSecondNs);
+  table.Take(states);
+  const auto all = RowsOf(table.PackAfter(0));
+  ASSERT_EQ(all.size(), 5u);
+  const std::string chunk = table.Pack(0);
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(At<std::uint32_t>(all[i], 0), i);
+    EXPECT_EQ(all[i].substr(8), chunk.substr(8 + 96 * i, 96)) << i;
+  }
+  const std::uint64_t seen = table.newest_change();
+  EXPECT_EQ(table.PackAfter(seen), "");
+  v1::AgentStates two = StatesOf(7);
+  Add(&two, 3, 1, 2 * kSecondNs);
+  Add(&two, 1, 2, 2 * kSecondNs);
+  table.Take(two);
+  table.Clear(7, 4);
+  const auto some = RowsOf(table.PackAfter(seen));
+  ASSERT_EQ(some.size(), 3u);
+  EXPECT_EQ(At<std::uint32_t>(some[0], 0), 1u);
+  EXPECT_EQ(At<double>(some[0], 8 + 16), 2);
+  EXPECT_EQ(At<std::uint32_t>(some[1], 0), 3u);
+  EXPECT_EQ(At<std::uint32_t>(some[2], 0), 4u);
+  EXPECT_EQ(At<std::uint32_t>(some[2], 8), 0u) << "it has left";
+}
+
+// Goal:   numbers are within half a step, and multiples of it; the time is not rounded.
+TEST(StateTable, RoundsToAStep) {
+  Random random(2009);
+  for (const double step : {0.0, 0x1p-10, 0.5, 4.0}) {
+    StateTable table;
+    v1::AgentStates states = StatesOf(7);
+    for (std::uint32_t slot = 0; slot < 100; ++slot) {
+      v1::AgentState* state = Add(&states, slot, random.Uniform(-1e6, 1e6), 1234567891);
+      state->mutable_velocity_m_s()->set_y(random.Uniform(-100, 100));
+      state->set_position_error_m(random.Uniform(0, 10));
+    }
+    table.Take(states);
+    const auto rows = RowsOf(table.PackAfter(0, step));
+    ASSERT_EQ(rows.size(), 100u);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const v1::AgentState& told = states.states(static_cast<int>(i));
+      EXPECT_EQ(At<double>(rows[i], 8 + 8), 1.234567891);
+      const double x = At<double>(rows[i], 8 + 16), v = At<float>(rows[i], 8 + 44);
+      const double error = At<float>(rows[i], 8 + 76);
+      EXPECT_LE(std::abs(x - told.position_m().x()), step / 2);
+      EXPECT_LE(std::abs(v - told.velocity_m_s().y()), step / 2 + 1e-5);
+      EXPECT_LE(std::abs(error - told.position_error_m()), step / 2 + 1e-6);
+      if (step == 0) continue;
+      EXPECT_EQ(std::remainder(x, step), 0) << x;
+      EXPECT_EQ(std::remainder(v, step), 0) << v;
+    }
+  }
 }
 
 }  // namespace
