@@ -50,8 +50,8 @@ export class TestWorld {
     return child;
   }
 
-  async startService() {
-    const service = this.start("collisiond", "--config", this.config);
+  async startService(...words) {
+    const service = this.start("collisiond", "--config", this.config, ...words);
     await until("the service serves", () => service.said.includes("serves world"));
     return service;
   }
@@ -66,15 +66,18 @@ export class TestWorld {
     return gateway;
   }
 
-  /** Two that meet head-on at 4.5 s, each a simulator of its own; they end at 12 s. */
-  startTwoThatMeet() {
-    for (const [name, x, v] of [["left", -5, 1], ["right", 5, -1]]) {
+  /**
+   * Two that meet head-on `shift` after 4.5 s, each a simulator of its own, at twice the pace of the
+   * clock unless `pace` says otherwise; their players.
+   */
+  startTwoThatMeet(shift = 0, pace = ["--speed", "2", "--linger"]) {
+    return [["left", -5 - shift, 1], ["right", 5 + shift, -1]].map(([name, x, v]) => {
       const rows = Array.from({ length: 13 }, (_, t) => `${t},${name},${x + v * t},0,0,${v},0,0`);
       const file = join(this.folder, `${name}.csv`);
       writeFileSync(file, `time_s,agent_id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n${rows.join("\n")}\n`);
-      this.start("trajectory-player", file, "--simulator", `${name}-sim`, "--radius", "0.5",
-                 "--speed", "2", "--linger");
-    }
+      return this.start("trajectory-player", file, "--simulator", `${name}-sim`, "--radius", "0.5",
+                        ...pace);
+    });
   }
 
   /** What collisionctl prints, as documents. */
