@@ -59,8 +59,8 @@ std::string Csv(const Chart& chart) {
   for (const Series& series : chart.series) {
     for (const Point& point : series.points) {
       char x[40], y[40] = "inf";
-      std::snprintf(x, sizeof x, "%.9g", point.x);
-      if (point.y) std::snprintf(y, sizeof y, "%.9g", *point.y);
+      std::snprintf(x, sizeof x, "%.15g", point.x);
+      if (point.y) std::snprintf(y, sizeof y, "%.15g", *point.y);
       text += CsvCell(series.name) + "," + x + "," + y + "," + CsvCell(point.note) + "\n";
     }
   }

@@ -85,7 +85,7 @@ std::string Data(const Chart& chart, const Series& series, bool at_infinity, dou
   for (const Point& point : series.points) {
     if (!Drawable(chart, point) || at_infinity == point.y.has_value()) continue;
     char line[80];
-    std::snprintf(line, sizeof line, "%.9g %.9g\n", point.x, point.y.value_or(infinity));
+    std::snprintf(line, sizeof line, "%.15g %.15g\n", point.x, point.y.value_or(infinity));
     text += line;
   }
   return text;

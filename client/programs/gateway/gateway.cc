@@ -120,6 +120,10 @@ class Gateway {
         monitor_(MonitorOptionsOf(options), scene_.Callbacks()),
         server_(WebOptionsOf(options), Handlers()) {}
 
+  ~Gateway() { conversion_.Stop(); }  // while there is a server to answer
+  Gateway(const Gateway&) = delete;
+  Gateway& operator=(const Gateway&) = delete;
+
   std::uint16_t port() const { return server_.port(); }
 
   void Run(const std::function<bool()>& stopped) {

@@ -224,6 +224,7 @@ class McapWriter::File {
 
   const std::string& path() const { return path_; }
   std::uint64_t messages() const { return messages_; }
+  std::uint64_t bytes() const { return offset_; }
 
  private:
   using IndexEntry = std::pair<std::uint64_t, std::uint64_t>;  ///< Log time, place in the chunk.
@@ -316,5 +317,7 @@ void McapWriter::Close() { file_->Close(); }
 const std::string& McapWriter::path() const { return file_->path(); }
 
 std::uint64_t McapWriter::messages() const { return file_->messages(); }
+
+std::uint64_t McapWriter::bytes() const { return file_->bytes(); }
 
 }  // namespace collision::client

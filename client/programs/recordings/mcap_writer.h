@@ -52,6 +52,7 @@ class McapWriter {
 
   const std::string& path() const;
   std::uint64_t messages() const;
+  std::uint64_t bytes() const;  ///< In the file, without the chunk that is begun.
 
  private:
   class File;

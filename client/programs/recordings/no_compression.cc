@@ -23,6 +23,7 @@ const std::string& McapWriter::path() const {
   return kNone;
 }
 std::uint64_t McapWriter::messages() const { return 0; }
+std::uint64_t McapWriter::bytes() const { return 0; }
 
 std::string SinglePage(const std::string&, const SinglePageTitle&,
                        const std::vector<std::string>&) {

@@ -1,6 +1,5 @@
 #include "client/programs/recordings/replayed_world.h"
 
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -40,42 +39,32 @@ std::string DaemonPath() {
       "took in, and only the service tells what follows from it");
 }
 
-/// As one word of the shell.
-std::string Quoted(const std::string& word) {
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-std::string CommandOf(const ReplayRequest& request) {
-  std::string command = "exec " + Quoted(DaemonPath()) + " --log-level error --transcript" +
-                        " --replay " + Quoted(request.file);
-  if (request.from_ns) command += " --from " + Quoted(wire::UtcText(*request.from_ns));
-  if (request.until_ns) command += " --until " + Quoted(wire::UtcText(*request.until_ns));
-  return command;
-}
-
-}  // namespace
-
-void ReplayedWorld::CloseProcess::operator()(std::FILE* process) const { pclose(process); }
-
-ReplayedWorld::ReplayedWorld(const ReplayRequest& request) {
+/// Throws std::runtime_error if there is no such file, or no collisiond.
+std::vector<std::string> CommandOf(const ReplayRequest& request) {
   if (access(request.file.c_str(), R_OK) != 0) {
     throw std::runtime_error(request.file +
                              ": cannot be read: " + std::generic_category().message(errno));
   }
-  process_.reset(popen(CommandOf(request).c_str(), "re"));
-  if (!process_) {
-    throw std::runtime_error("collisiond cannot be started: " +
-                             std::generic_category().message(errno));
-  }
-  entries_.emplace("/dev/fd/" + std::to_string(fileno(process_.get())));
+  std::vector<std::string> words = {DaemonPath(),   "--log-level", "error",
+                                    "--transcript", "--replay",    request.file};
+  const auto add = [&words](const char* option, const std::optional<std::int64_t>& time_ns) {
+    if (time_ns) words.insert(words.end(), {option, wire::UtcText(*time_ns)});
+  };
+  add("--from", request.from_ns);
+  add("--until", request.until_ns);
+  return words;
+}
+
+}  // namespace
+
+ReplayedWorld::ReplayedWorld(const ReplayRequest& request)
+    : process_(CommandOf(request), request.niceness), entries_(process_.output_path()) {
   is_over_ = !NextEntry();
 }
 
 ReplayedWorld::~ReplayedWorld() = default;
 
-bool ReplayedWorld::NextEntry() { return entries_->Next(&entry_); }
+bool ReplayedWorld::NextEntry() { return entries_.Next(&entry_); }
 
 void ReplayedWorld::Receive(std::chrono::nanoseconds, Arrivals* arrivals) {
   bool has_step = false;
@@ -91,7 +80,9 @@ void ReplayedWorld::Receive(std::chrono::nanoseconds, Arrivals* arrivals) {
     } else if (entry_.has_header()) {
       BeginRun(arrivals);
     } else if (entry_.has_told()) {
-      service_ = StampOf(entry_.told().output()).service_id();
+      // A hello has no stamp.
+      const std::uint64_t service = StampOf(entry_.told().output()).service_id();
+      if (service != 0) service_ = service;
       arrivals->outputs.push_back(std::move(*entry_.mutable_told()->mutable_output()));
     }
     is_over_ = !NextEntry();
@@ -108,10 +99,8 @@ void ReplayedWorld::BeginRun(Arrivals* arrivals) {
 }
 
 int ReplayedWorld::Finish() {
-  entries_.reset();
   is_over_ = true;
-  const int status = pclose(process_.release());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : EXIT_FAILURE;
+  return process_.Wait();
 }
 
 }  // namespace collision::client

@@ -3,12 +3,11 @@
 
 #include <chrono>
 #include <cstdint>
-#include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 
 #include "client/library/network/transport.h"
+#include "client/programs/recordings/replay_process.h"
 #include "idl/recording.pb.h"
 #include "idl/recording/entries.h"
 
@@ -16,8 +15,9 @@ namespace collision::client {
 
 /// What is replayed, as `collisiond --replay` takes it.
 struct ReplayRequest {
-  std::string file;                               ///< Recording, segment, or folder of segments.
-  std::optional<std::int64_t> from_ns, until_ns;  ///< Wall time.
+  std::string file;  ///< Recording, segment, or folder of segments.
+  std::optional<std::int64_t> from_ns = {}, until_ns = {};  ///< Wall time.
+  int niceness = 0;                                         ///< Of the replay, added to ours.
 };
 
 /// Lets collisiond replay a recording (beside this program, or on the path), and hands on what each
@@ -33,7 +33,8 @@ class ReplayedWorld final : public Receiver {
 
   /// One step; nothing at the end. Does not wait for `timeout`, but for the replay.
   void Receive(std::chrono::nanoseconds timeout, Arrivals* arrivals) override;
-  bool service_alive() const override { return !is_over_; }
+  /// The end of a recording is not the end of its service.
+  bool service_alive() const override { return true; }
   /// The recorded monotonic time of the step.
   std::chrono::steady_clock::time_point Now() const override { return now_; }
 
@@ -47,16 +48,15 @@ class ReplayedWorld final : public Receiver {
   /// standard error; to be called once, after which nothing is received.
   int Finish();
 
- private:
-  struct CloseProcess {
-    void operator()(std::FILE* process) const;
-  };
+  /// Ends the replay: what is not received yet is lost. Any thread, while this lives.
+  void Kill() { process_.Kill(); }
 
+ private:
   bool NextEntry();
   void BeginRun(Arrivals* arrivals);
 
-  std::unique_ptr<std::FILE, CloseProcess> process_;
-  std::optional<wire::EntryReader> entries_;
+  ReplayProcess process_;
+  wire::EntryReader entries_;
   v1::RecordingEntry entry_;  ///< The next one, unless it is over.
   std::chrono::steady_clock::time_point now_{};
   std::chrono::nanoseconds before_{0};  ///< Time of the starts of the service before this one.

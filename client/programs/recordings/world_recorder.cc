@@ -58,11 +58,12 @@ bool HasAgents(const Arrivals& arrivals) {
                              [](const v1::Input& input) { return input.has_agent_description(); });
 }
 
+/// The time of a service that serves: what late joiners hear again of events is of before.
 std::optional<std::int64_t> NowOf(const v1::Output& output) {
   if (output.has_clearance()) return output.clearance().now_ns();
-  if (output.has_collision_event()) return output.collision_event().now_ns();
-  if (output.has_service_status()) return output.service_status().now_ns();
-  return std::nullopt;
+  const bool serves =
+      output.has_service_status() && output.service_status().phase() == v1::PHASE_SERVING;
+  return serves ? std::optional(output.service_status().now_ns()) : std::nullopt;
 }
 
 }  // namespace

@@ -47,6 +47,9 @@ class WorldRecorder {
   /// What was written, by the paths of the files.
   const std::map<std::string, std::uint64_t>& files() const { return files_; }
 
+  /// Written to the file so far.
+  std::uint64_t bytes() const { return file_->bytes(); }
+
   /// Of the world.
   std::int64_t now_ns() const { return now_ns_; }
   const WorldView& view() const { return stream_.scene().view(); }

@@ -6,10 +6,16 @@
 #include "client/programs/scene/item.h"
 
 namespace collision::client {
+namespace {
+
+/// What comes on several topics may come a little out of order.
+constexpr std::int64_t kDisorderNs = 1'000'000'000;
+
+}  // namespace
 
 void Past::Keep(const StateTable& states, std::int64_t now_ns) {
   const std::lock_guard lock(mutex_);
-  if (!samples_.empty() && now_ns < samples_.back().now_ns) {
+  if (!samples_.empty() && now_ns < samples_.back().now_ns - kDisorderNs) {
     samples_.clear();
     states_ = 0;
     seen_ = 0;
@@ -24,7 +30,8 @@ void Past::Keep(const StateTable& states, std::int64_t now_ns) {
   const std::size_t count = packed.size() / (StateTable::kHeaderBytes + StateTable::kStateBytes);
   samples_.push_back({now_ns, count, MakeItem(ItemKind::kChangedStates, std::move(packed))});
   states_ += count;
-  while (states_ > kStatesMax || samples_.front().now_ns < now_ns - kSpanNs) {
+  while (!samples_.empty() &&
+         (states_ > kStatesMax || samples_.front().now_ns < now_ns - kSpanNs)) {
     states_ -= samples_.front().states;
     samples_.pop_front();
   }

@@ -105,6 +105,7 @@ void StateTable::Take(const v1::AgentStates& states) {
     Agent* agent = Find(states.simulator_id(), state.slot());
     if (agent == nullptr || states.run() < agent->run) continue;
     agent->run = states.run();
+    agent->generation = state.generation();
     agent->has_state = true;
     agent->stamp_ns = state.stamp_ns();
     agent->p = ArrayOf(state.position_m());
@@ -194,7 +195,7 @@ void StateTable::PackAgent(const Agent& agent, std::string* bytes) {
   for (const double x : agent.q) {
     Put(static_cast<std::int16_t>(std::lround(x * kOrientationOne)), bytes);
   }
-  Put(std::uint32_t{0}, bytes);
+  Put(agent.generation, bytes);
 }
 
 }  // namespace collision::client

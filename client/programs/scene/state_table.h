@@ -41,7 +41,7 @@ class StateTable {
   struct Agent {
     std::uint64_t simulator = 0;
     std::uint32_t slot = 0;
-    std::uint32_t run = 0;  ///< Of the state.
+    std::uint32_t run = 0, generation = 0;  ///< Of the state.
     bool has_state = false;
     std::int64_t stamp_ns = 0;
     std::array<double, 3> p{}, v{}, a{}, w{};
@@ -65,7 +65,7 @@ class StateTable {
   ///   from the stamp on [s] (-inf: no promise), f64 stamp [s], f64 position x y z [m],
   ///   f32 velocity x y z [m/s], f32 acceleration x y z, f32 angular velocity x y z,
   ///   f32 error of the position [m], of the velocity [m/s], i16 orientation w x y z [1/32000],
-  ///   4 bytes of 0.
+  ///   u32 generation of the agent.
   /// Rounded to nearest: for eyes, not for proofs.
   std::string Pack(std::uint32_t chunk) const;
 

@@ -26,8 +26,10 @@ namespace websocket = beast::websocket;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr std::chrono::seconds kPatience{30};           ///< With a connection that says nothing.
-constexpr std::chrono::minutes kUploadPatience{10};     ///< With one that sends a file.
+constexpr std::chrono::seconds kPatience{30};        ///< With a connection that says nothing.
+constexpr std::chrono::minutes kUploadPatience{10};  ///< With one that sends or gets a file.
+constexpr std::size_t kUploadsMax = 1;
+constexpr std::size_t kLargeAnswer = 1 << 20;
 constexpr std::chrono::milliseconds kAcceptAgain{100};  ///< After too many open files.
 constexpr std::size_t kPathMax = 2048;
 constexpr std::size_t kViewerMessageMax = 1 << 16;
@@ -41,19 +43,26 @@ struct Common {
   WebHandlers handlers;
   std::set<ViewerSession*> viewers = {};
   std::size_t connections = 0;
+  std::size_t uploads = 0;
 };
 
-/// One of the connections that there may be.
+/// One of so many that there may be at a time.
 class Place {
  public:
-  explicit Place(Common* common) : common_(common) { ++common_->connections; }
-  ~Place() { --common_->connections; }
+  explicit Place(std::size_t* taken) : taken_(*taken) { ++taken_; }
+  ~Place() { --taken_; }
   Place(const Place&) = delete;
   Place& operator=(const Place&) = delete;
 
  private:
-  Common* const common_;
+  std::size_t& taken_;
 };
+
+/// A page from elsewhere asks, one of those that may look.
+bool IsFromElsewhere(const RequestHead& head) {
+  return !head.origin.empty() && head.origin != "http://" + head.host &&
+         head.origin != "https://" + head.host;
+}
 
 std::string TextOf(beast::string_view view) { return {view.data(), view.size()}; }
 
@@ -61,7 +70,10 @@ std::string TextOf(beast::string_view view) { return {view.data(), view.size()};
 class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
  public:
   ViewerSession(beast::tcp_stream&& stream, Common* common, std::unique_ptr<WebViewer> viewer)
-      : stream_(std::move(stream)), common_(common), place_(common), viewer_(std::move(viewer)) {
+      : stream_(std::move(stream)),
+        common_(common),
+        place_(&common->connections),
+        viewer_(std::move(viewer)) {
     common_->viewers.insert(this);
   }
   ~ViewerSession() { common_->viewers.erase(this); }
@@ -145,7 +157,9 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(tcp::socket&& socket, Common* common)
-      : stream_(std::move(socket)), common_(common), place_(std::make_unique<Place>(common)) {}
+      : stream_(std::move(socket)),
+        common_(common),
+        place_(std::make_unique<Place>(&common->connections)) {}
 
   /// The head first: who may not ask need not send the rest.
   void Read() {
@@ -184,6 +198,13 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (websocket::is_upgrade(request)) return BecomeViewer();
     const bool is_upload = request.method() == http::verb::post && !path_.empty() &&
                            path_ == common_->handlers.upload_path;
+    if (is_upload && IsFromElsewhere(head)) {
+      return Refuse(403, "only pages of this server may upload");
+    }
+    if (is_upload && common_->uploads >= kUploadsMax) {
+      return Refuse(503, "another file is being uploaded");
+    }
+    if (is_upload) upload_ = std::make_unique<Place>(&common_->uploads);
     const std::size_t most =
         is_upload ? common_->options.upload_bytes_max : common_->options.request_bytes_max;
     if (parser_->content_length().value_or(0) > most) return Refuse(413, "too large");
@@ -198,13 +219,21 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
   void HandleUpload() {
-    Request request = parser_->release();
-    common_->handlers.upload(
-        {.method = "POST", .path = path_, .query = query_, .body = std::move(request.body())},
-        [self = shared_from_this()](WebResponse answer) {
-          asio::post(self->stream_.get_executor(),
-                     [self, answer = std::move(answer)] { self->Send(answer); });
-        });
+    // Whoever answers holds the session no longer than until then: it ends on the server's thread.
+    const auto held = std::make_shared<std::shared_ptr<HttpSession>>(shared_from_this());
+    common_->handlers.upload({.method = "POST",
+                              .path = path_,
+                              .query = query_,
+                              .body = std::move(parser_->get().body())},
+                             [held](WebResponse answer) {
+                               std::shared_ptr<HttpSession> self = std::move(*held);
+                               const auto executor = self->stream_.get_executor();
+                               asio::post(executor,
+                                          [self = std::move(self), answer = std::move(answer)] {
+                                            self->upload_.reset();
+                                            self->Send(answer);
+                                          });
+                             });
   }
 
   void Handle() {
@@ -268,7 +297,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     response_.content_length(answer_.body->size());
     response_.keep_alive(answer_.status < 400 && request.keep_alive());
     serializer_.emplace(response_);
-    stream_.expires_after(kPatience);
+    stream_.expires_after(answer_.body->size() > kLargeAnswer ? kUploadPatience : kPatience);
     http::async_write(stream_, *serializer_,
                       [self = shared_from_this()](error_code failed, std::size_t) {
                         if (!failed && self->response_.keep_alive()) return self->Read();
@@ -279,7 +308,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   beast::tcp_stream stream_;
   Common* const common_;
-  std::unique_ptr<Place> place_;
+  std::unique_ptr<Place> place_, upload_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
   std::string path_, query_;  ///< Of the request.

@@ -1,5 +1,6 @@
 #include "client/programs/tools/recordings/convert.h"
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "client/programs/shared/stop_signal.h"
 #include "client/programs/tools/collisionctl/agents_watcher.h"
 #include "client/programs/tools/recordings/replay_options.h"
+#include "idl/limits.h"
 
 namespace collision::client {
 namespace {
@@ -24,8 +26,8 @@ constexpr double kRecordSecondsMax = 1e7;
 constexpr const char* kMcapFooter = R"(
 An MCAP file has every message on a channel with the name of its topic, as protobuf with its
 schema, and what the gateway's page needs to show it (drop the file onto the page). Its times are
-the world's; where these begin anew, FILE.2.mcap begins. Foxglove, Lichtblick, PlotJuggler and
-rerun read it.)";
+the world's; where these begin anew, FILE.2.mcap begins. Foxglove, Lichtblick and PlotJuggler read
+it.)";
 
 constexpr const char* kConvertFooter = R"(
 Examples:
@@ -58,7 +60,8 @@ CLI::App* AddConvertCommand(CLI::App* app, ConvertOptions* options) {
       app->add_subcommand("convert", "A recording as an MCAP file, for Foxglove and others");
   AddReplayOptions(command, &options->input, &options->from, &options->until);
   command->add_option("OUTPUT", options->output, "MCAP file; a former one is replaced")->required();
-  AddRateOption(command, "How often the page's channel is written", &options->rate_hz);
+  AddRateOption(command, "How often the channels for the page and Foxglove are written",
+                &options->rate_hz);
   command->footer(std::string(kConvertFooter) + kMcapFooter);
   return command;
 }
@@ -71,7 +74,8 @@ CLI::App* AddRecordCommand(CLI::App* app, ConvertOptions* options) {
       ->check(Finite(kRecordSecondsMax, false));
   command->add_flag("!--no-watch", options->watch,
                     "Do not ask simulators for fresh states at --rate meanwhile");
-  AddRateOption(command, "How often the page's channel is written", &options->rate_hz);
+  AddRateOption(command, "How often the channels for the page and Foxglove are written",
+                &options->rate_hz);
   command->footer(std::string(kRecordFooter) + kMcapFooter);
   return command;
 }
@@ -122,7 +126,9 @@ int RunRecord(const ConvertOptions& options, const MonitorOptions& place, double
     if (options.watch) {
       watcher = std::make_unique<AgentsWatcher>(
           ConnectWatcher({place.world, place.domain, place.credentials}),
-          Nanoseconds(1 / options.rate_hz));
+          std::clamp(Nanoseconds(1 / options.rate_hz),
+                     std::chrono::nanoseconds(wire::kWatchPeriodMin),
+                     std::chrono::nanoseconds(wire::kWatchPeriodMax)));
     }
   } catch (const std::runtime_error& error) {
     return FailWith(error.what(), kExitUnavailable);

@@ -11,6 +11,7 @@
 #include "client/library/network/conversion.h"
 #include "client/programs/shared/forecast_slots.h"
 #include "client/programs/tools/collisionctl/events/event_filter.h"
+#include "idl/recording/utc.h"
 
 namespace collision::client {
 namespace {
@@ -20,6 +21,7 @@ using chart::Point;
 using chart::Series;
 
 constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
+constexpr std::int64_t kSecondNs = 1'000'000'000;
 constexpr std::int64_t kOpen = std::numeric_limits<std::int64_t>::max();
 
 double SecondsOf(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
@@ -46,8 +48,27 @@ Series Named(const char* name, bool thick = false) {
   return series;
 }
 
+constexpr char kWorldTime[] = "the world's time [s]";
+
+/// Times since 1970 are told from the first one on: of the whole numbers nobody reads the last
+/// digits.
+void BeginAtFirst(Chart* chart, std::vector<Series>* all) {
+  constexpr double kLong = 1e8;  // [s]
+  double first = std::numeric_limits<double>::infinity();
+  for (const Series& series : *all) {
+    for (const Point& point : series.points) first = std::min(first, point.x);
+  }
+  if (!std::isfinite(first) || first < kLong || chart->x_label != kWorldTime) return;
+  first = std::floor(first);
+  for (Series& series : *all) {
+    for (Point& point : series.points) point.x -= first;
+  }
+  chart->x_label = "seconds after " + wire::UtcText(static_cast<std::int64_t>(first) * kSecondNs);
+}
+
 /// Without the curves that have no point.
 Chart WithCurves(Chart chart, std::vector<Series> all) {
+  BeginAtFirst(&chart, &all);
   chart.draws_title = true;
   for (Series& series : all) {
     if (!series.points.empty()) chart.series.push_back(std::move(series));
@@ -76,7 +97,7 @@ class ClearanceCurves final : public Curves {
   Chart Draw() const override {
     return WithCurves({.id = "clearance",
                        .title = "How long agents are clear",
-                       .x_label = "the world's time [s]",
+                       .x_label = kWorldTime,
                        .y_label = "certainly touches nothing for [s]",
                        .log_x = false,
                        .log_y = false,
@@ -145,8 +166,8 @@ class BracketCurves final : public Curves {
   std::map<EventKey, std::vector<v1::CollisionEvent>> told_;
 };
 
-/// How old states are when the service takes them; where time is that of simulators, how long the
-/// rounds take.
+/// How old states are when the service takes them; where time is that of simulators, how long a
+/// second of it takes.
 class LatencyCurves final : public Curves {
  public:
   explicit LatencyCurves(std::function<std::int64_t()> wall_ns) : wall_ns_(std::move(wall_ns)) {}
@@ -162,10 +183,11 @@ class LatencyCurves final : public Curves {
 
   void Sample(std::int64_t now_ns, const WorldView&) override {
     const std::int64_t wall_ns = wall_ns_();
-    if (is_simulated_.value_or(false) && before_ns_ != kNone) {
-      seconds_.push_back(SecondsOf(wall_ns - before_ns_));
+    if (is_simulated_.value_or(false) && before_ns_ != kNone && now_ns > world_before_ns_) {
+      seconds_.push_back(SecondsOf(wall_ns - before_ns_) / SecondsOf(now_ns - world_before_ns_));
     }
     before_ns_ = wall_ns;
+    world_before_ns_ = now_ns;
     if (seconds_.empty() || now_ns < due_ns_) return;
     due_ns_ = now_ns + kBucketNs;
     const double t = SecondsOf(now_ns);
@@ -178,10 +200,10 @@ class LatencyCurves final : public Curves {
   Chart Draw() const override {
     const bool is_simulated = is_simulated_.value_or(true);
     return WithCurves({.id = "latency",
-                       .title = is_simulated ? "How long the rounds of the simulators take"
+                       .title = is_simulated ? "How long a second of the world takes"
                                              : "How old states are when the service takes them",
-                       .x_label = "the world's time [s]",
-                       .y_label = is_simulated ? "wall time of a round [s]" : "age of states [s]",
+                       .x_label = kWorldTime,
+                       .y_label = is_simulated ? "wall time [s]" : "age of states [s]",
                        .log_x = false,
                        .caption = "Of half a second each; by the clock of the service's machine."},
                       {median_, high_, greatest_});
@@ -192,7 +214,7 @@ class LatencyCurves final : public Curves {
 
   const std::function<std::int64_t()> wall_ns_;
   std::optional<bool> is_simulated_;
-  std::int64_t before_ns_ = kNone, due_ns_ = kNone;
+  std::int64_t before_ns_ = kNone, world_before_ns_ = kNone, due_ns_ = kNone;
   std::vector<double> seconds_;
   Series median_ = Named("median", true), high_ = Named("99 of 100 are less"),
          greatest_ = Named("the greatest");
@@ -227,7 +249,7 @@ class PairCurves final : public Curves {
   Chart Draw() const override {
     return WithCurves({.id = "pairs",
                        .title = "Pairs that the service has to do with",
-                       .x_label = "the world's time [s]",
+                       .x_label = kWorldTime,
                        .y_label = "pairs",
                        .log_x = false,
                        .caption = "Tracked: near enough to be looked at one by one."},

@@ -45,6 +45,14 @@ struct Window {
 
 std::int64_t Ns(double seconds) { return static_cast<std::int64_t>(1e9 * seconds); }
 
+/// Of times that may be open ends.
+std::int64_t Later(std::int64_t time_ns, double seconds) {
+  std::int64_t sum = 0;
+  if (!__builtin_add_overflow(time_ns, Ns(seconds), &sum)) return sum;
+  return seconds > 0 ? std::numeric_limits<std::int64_t>::max()
+                     : std::numeric_limits<std::int64_t>::min();
+}
+
 std::string ReadTemplate(const std::string& given) {
   std::string path = given;
   if (path.empty()) {
@@ -110,16 +118,17 @@ Found Find(const ExportOptions& options, const ReplayRequest& request) {
   std::int64_t end = event.end().latest_ns();
   if (end == std::numeric_limits<std::int64_t>::max()) end = event.begin().latest_ns();
   if (end == std::numeric_limits<std::int64_t>::max()) end = std::max(begin, event.now_ns());
-  return {
-      .event = event,
-      .radius_m = SmallestRadius(view),
-      .window = {.from_ns = begin - Ns(options.before_s), .until_ns = end + Ns(options.after_s)}};
+  return {.event = event,
+          .radius_m = SmallestRadius(view),
+          .window = {.from_ns = Later(begin, -options.before_s),
+                     .until_ns = Later(end, options.after_s)}};
 }
 
-/// What the page is told of events: the newest of each, without those that came to nothing.
+/// What the page is told of events: the newest of each, without those that came to nothing, and
+/// those that were over before the window.
 class EventItems {
  public:
-  explicit EventItems(const v1::CollisionEvent& wanted) : wanted_(wanted) {}
+  explicit EventItems(const Found& found) : wanted_(found.event), window_(found.window) {}
 
   /// Whether the item is about an event.
   bool Take(const Board::Item& item, const EventBook& book) {
@@ -127,8 +136,9 @@ class EventItems {
     if (!item.name.starts_with("event/")) return false;
     const EventBook::Entry& entry = book.At(std::stoull(item.name.substr(item.name.find('/') + 1)));
     if (IsWanted(entry.newest)) wanted_item_ = item.name;
-    entry.CameToNothing() ? static_cast<void>(newest_.erase(item.name))
-                          : static_cast<void>(newest_[item.name] = item.payload);
+    const bool is_shown = !entry.CameToNothing() && !WasOver(entry.newest);
+    !is_shown ? static_cast<void>(newest_.erase(item.name))
+              : static_cast<void>(newest_[item.name] = item.payload);
     return true;
   }
 
@@ -142,6 +152,12 @@ class EventItems {
   const std::string& wanted_item() const { return wanted_item_; }
 
  private:
+  bool WasOver(const v1::CollisionEvent& event) const {
+    const bool is_open =
+        event.status() == v1::EVENT_POSSIBLE || event.status() == v1::EVENT_CONFIRMED;
+    return !is_open && event.now_ns() < window_.from_ns;
+  }
+
   /// In another epoch the same two may meet as well.
   bool IsWanted(const v1::CollisionEvent& event) const {
     return KeyOf(event) == KeyOf(wanted_) &&
@@ -150,6 +166,7 @@ class EventItems {
   }
 
   const v1::CollisionEvent wanted_;
+  const Window window_;
   std::string wanted_item_;
   std::map<std::string, Payload> newest_;
 };
@@ -160,7 +177,7 @@ class Collection {
   Collection(const ExportOptions& options, const Found& found)
       : step_(StepFor(found.radius_m)),
         window_(found.window),
-        events_(found.event),
+        events_(found),
         times_(PeriodNs(options.rate_hz)) {}
 
   /// Requires that it outlives the stream.

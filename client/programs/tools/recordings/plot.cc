@@ -19,15 +19,18 @@
 namespace collision::client {
 namespace {
 
+constexpr std::int64_t kAnewNs = 1'000'000'000;        ///< So far back time does not go otherwise.
 constexpr std::int64_t kSamplePeriodNs = 100'000'000;  ///< Of the world's time.
 
 constexpr const char* kPlotFooter = R"(
   clearance  for how long agents certainly touch nothing: the least, a tenth, the median
   brackets   of each contact, what was not yet known of its begin, over the time that was left
-  latency    how old states are when the service takes them; in lock-step what a round takes
+  latency    how old states are when the service takes them; in lock-step how long a second of the
+             world takes
   pairs      pairs that are tracked, may touch, will if they go on so, and touch
 
-gnuplot draws it (gnuplot-nox); of a name that ends in .csv the numbers are written.
+Of a recording in which the world's time begins anew it shows what was before. gnuplot draws it
+(gnuplot-nox); of a name that ends in .csv the numbers are written.
 
 Examples:
   collisionctl plot run.rec --what clearance -o clearance.svg
@@ -41,7 +44,8 @@ chart::Chart ChartOf(const PlotOptions& options, int* code) {
   const auto curves = MakeCurves(options.what, [&world] { return world.wall_ns(); });
   WorldView view;
   MessageMonitor::Callbacks callbacks = view.Callbacks();
-  std::int64_t now_ns = std::numeric_limits<std::int64_t>::min(), due_ns = now_ns;
+  std::int64_t now_ns = std::numeric_limits<std::int64_t>::min(), due_ns = now_ns,
+               newest_ns = now_ns;
   const auto also = [](auto* callback, auto more) {
     *callback = [first = *callback, more](const auto& message) {
       if (first) first(message);
@@ -62,12 +66,17 @@ chart::Chart ChartOf(const PlotOptions& options, int* code) {
   while (!world.is_over() && !StopRequested()) {
     monitor.Poll({});
     static_cast<void>(view.TakeEvents());
+    if (view.status() && now_ns < newest_ns - kAnewNs && view.status()->agents() > 0) {
+      std::cerr << "collisionctl: the world's time begins anew: what follows is left out\n";
+      break;
+    }
+    newest_ns = std::max(newest_ns, now_ns);
     if (!view.status() || now_ns < due_ns) continue;
     due_ns = now_ns + kSamplePeriodNs;
     curves->Sample(now_ns, view);
     progress.Tell(now_ns);
   }
-  *code = StopRequested() ? kExitRefused : world.Finish();
+  *code = StopRequested() ? kExitRefused : world.is_over() ? world.Finish() : kExitOk;
   return curves->Draw();
 }
 

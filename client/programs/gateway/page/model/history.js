@@ -24,7 +24,8 @@ export class History {
   /** States of before all that are there, in their order. */
   addPast(states) {
     const first = this.states[0]?.t ?? Infinity;
-    this.states = [...states.filter(({ t }) => t < first), ...this.states];
+    const past = states.filter(({ t }, i) => t < first && (i === 0 || t > states[i - 1].t));
+    this.states = [...past, ...this.states];
     if (this.states.length > this.limit) this.thin();
   }
 

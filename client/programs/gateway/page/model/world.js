@@ -123,7 +123,7 @@ export class World extends EventTarget {
       const agent = this.agents.get(number);
       if (!agent) continue;
       agent.history.limit = this.limit();
-      agent.history.addPast(states);
+      agent.history.addPast(states.filter((state) => state.generation === agent.info.generation));
     }
     this.arrived();
   }

@@ -80,6 +80,7 @@ function readState(view, s) {
     a: [f32(52), f32(56), f32(60)],
     w: [f32(64), f32(68), f32(72)],
     q: [i16(84), i16(86), i16(88), i16(90)],
+    generation: view.getUint32(s + 92, true),
     positionError: f32(76),
     velocityError: f32(80),
     clearUntil: t + f32(4),

@@ -2,6 +2,8 @@
 import { readItems } from "./items.js";
 
 const TOPIC = "/page";
+const UPLOAD_MAX = 256 * 2 ** 20;
+const PART_BYTES = 2 ** 20;
 const BREATH_MS = 40;  // Of work; then the page may draw.
 const DEPARTED_MAX = 200000;
 
@@ -55,8 +57,10 @@ export async function load(model, messages, onBegin, onPart) {
 
 /** The messages for the page in an MCAP file, as collisionctl convert and record write it. */
 export async function* messagesOf(file) {
-  const [{ McapIndexedReader }, { decompress }] =
+  const [{ McapIndexedReader, McapStreamReader }, { decompress }] =
     await Promise.all([import("@mcap/core"), import("fzstd")]);
+  const zstd = (bytes, size) => decompress(bytes, new Uint8Array(Number(size)));
+  const decompressHandlers = { zstd };
   const readable = {
     size: async () => BigInt(file.size),
     read: async (offset, length) => {
@@ -64,8 +68,14 @@ export async function* messagesOf(file) {
       return new Uint8Array(await part.arrayBuffer());
     },
   };
-  const zstd = (bytes, size) => decompress(bytes, new Uint8Array(Number(size)));
-  const reader = await McapIndexedReader.Initialize({ readable, decompressHandlers: { zstd } });
+  let reader;
+  try {
+    reader = await McapIndexedReader.Initialize({ readable, decompressHandlers });
+  } catch {
+    // Without an end: what wrote it was killed, or writes it yet.
+    yield* wholeChunks(file, new McapStreamReader({ decompressHandlers, validateCrcs: true }));
+    return;
+  }
   if (![...reader.channelsById.values()].some(({ topic }) => topic === TOPIC)) {
     throw new Error(`it has no channel ${TOPIC}: collisionctl convert and record write one`);
   }
@@ -74,11 +84,27 @@ export async function* messagesOf(file) {
   }
 }
 
-/** What the gateway makes of a recording of the service: an MCAP file. */
+async function* wholeChunks(file, reader) {
+  const channels = new Set();
+  for (let at = 0; at < file.size; at += PART_BYTES) {
+    reader.append(new Uint8Array(await file.slice(at, at + PART_BYTES).arrayBuffer()));
+    for (let record; (record = reader.nextRecord()) !== undefined;) {
+      if (record.type === "Channel" && record.topic === TOPIC) channels.add(record.id);
+      if (record.type === "Message" && channels.has(record.channelId)) {
+        yield record.data.slice().buffer;
+      }
+    }
+  }
+}
+
+/** What the gateway makes of a recording of the service: { blob: an MCAP file, note }. */
 export async function converted(file) {
+  if (file.size > UPLOAD_MAX) {
+    throw new Error("it has more than 256 MB: collisionctl convert makes an .mcap file of it");
+  }
   const answer = await fetch("convert", { method: "POST", body: file });
   if (!answer.ok) throw new Error((await answer.text()).trim());
-  return answer.blob();
+  return { blob: await answer.blob(), note: answer.headers.get("X-Collision-Note") ?? "" };
 }
 
 /** Messages from one gzipped text of base64: u32 length before each. */

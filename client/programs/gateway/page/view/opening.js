@@ -22,7 +22,7 @@ export class Opening {
   }
 
   async open(file) {
-    if (this.isBusy) return;
+    if (this.isBusy) return this.callbacks.tell("another file is being read");
     this.isBusy = true;
     clearTimeout(this.timer);
     const { tell, failed } = this.callbacks;
@@ -30,7 +30,9 @@ export class Opening {
       tell(`${file.name}: being read …`);
       const isMcap = (await file.slice(1, 5).text()) === "MCAP";
       if (!isMcap) tell(`${file.name}: the gateway lets collisiond replay it …`);
-      await this.show(messagesOf(isMcap ? file : await converted(file)), file.name);
+      const { blob, note } = isMcap ? { blob: file, note: "" } : await converted(file);
+      await this.show(messagesOf(blob), file.name);
+      if (note) tell(`${this.shown}: ${note}`);
     } catch (error) {
       failed();
       tell(`${file.name} cannot be shown: ${error.message}`);
