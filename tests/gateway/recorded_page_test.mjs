@@ -91,21 +91,30 @@ function toldStates(mcap) {
   return told;
 }
 
-function placeAt({ states }, t) {
-  const state = states.filter((one) => one.t <= t + 1e-9).at(-1) ?? states[0];
-  const d = t - state.t;
-  return state.p.map((x, k) => x + state.v[k] * d + state.a[k] * d * d / 2);
-}
-
 const distance = (a, b) => Math.hypot(...a.map((x, k) => x - b[k]));
 
-/** All agents as the page shows them at the time that is shown. */
-const shownAgents = (page) => page.evaluate(async () => {
-  const { positionAt } = await import("/model/history.js");
+/** All agents as the page shows them at the time that is shown, and by which states. */
+const shownAgents = (page) => page.evaluate(() => {
   const t = collision.shownTime();
-  return [...collision.world.agentsAt(t)].filter(({ history }) => history.at(t)).map((agent) =>
-    ({ key: agent.key, p: positionAt(agent.history.at(t), t) }));
+  return [...collision.world.agentsAt(t)].filter(({ history }) => history.at(t)).map((agent) => {
+    const { p, v, a, t: stamp } = agent.history.at(t), d = t - stamp;
+    const place = p.map((x, k) => x + v[k] * d + a[k] * d * d / 2);
+    return { key: agent.key, t, stamp, told: p, p: place };
+  });
 });
+
+/** What is shown is what was told; of states closer than a tenth the last one counts. */
+function areAsTold(shown, told, roundedTo) {
+  assert.equal(shown.length, told.size);
+  for (const one of shown) {
+    const { states } = told.get(one.key), { t, stamp } = one;
+    const state = states.find((state) => Math.abs(state.t - stamp) < 1e-9);
+    assert.ok(state, `${one.key} has told a state of ${stamp}`);
+    assert.ok(distance(state.p, one.told) <= roundedTo, `${one.key} at ${t}`);
+    const newest = states.filter((state) => state.t <= t - 0.15).at(-1) ?? states[0];
+    assert.ok(newest.t <= stamp && stamp <= t + 1e-9, `${one.key}: ${stamp} at ${t}`);
+  }
+}
 
 /** The contacts as a replay tells them last: by the names of the two, and which one it is. */
 async function toldContacts(recording) {
@@ -134,12 +143,7 @@ test("a file is dragged onto the page, and each instant is shown as it was", asy
     const drawn = await scrubTo(page, t);
     assert.ok(Math.abs(drawn - t) < 0.006, `${t} is drawn at ${drawn}`);
     const shown = await shownAgents(page);
-    assert.equal(shown.length, told.size, `at ${t}`);
-    for (const { key, p } of shown) {
-      // The page has states ten times a second, and ships turn within a tenth.
-      const off = distance(p, placeAt(told.get(key), drawn));
-      assert.ok(off < 0.15, `${key} is ${off} m off at ${t}`);
-    }
+    areAsTold(shown, told, 0);
   }
   assert.match(await page.locator("#clock").textContent(), /^2\.0\d s$/);
   assert.deepEqual(page.faults, []);
@@ -326,18 +330,7 @@ test("a page of one file shows the event, its bracket, and the agents around it"
     /^spaceships\.rec: \d+\.\d\d s of its world$/.test(await verdictOf(page)));
   assert.ok(!(await page.getByRole("button", { name: "Open file" }).isVisible()));
   const told = toldStates(ships);
-  const shown = await page.evaluate(() => {
-    const t = collision.shownTime();
-    return [...collision.world.agentsAt(t)].map(({ key, history }) => {
-      const { p, v, a, t: stamp } = history.at(t), d = t - stamp;
-      return { key, p: p.map((x, k) => x + v[k] * d + a[k] * d * d / 2) };
-    });
-  });
-  assert.equal(shown.length, told.size);
-  for (const { key, p } of shown) {
-    const off = distance(p, placeAt(told.get(key), seen.t));
-    assert.ok(off < 0.15, `${key} is ${off} m off`);
-  }
+  areAsTold(await shownAgents(page), told, 0.01);
   assert.deepEqual(page.faults, []);
 });
 
