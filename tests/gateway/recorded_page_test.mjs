@@ -357,6 +357,11 @@ test("an event is found by its number, by names, and else the contacts are told"
   const senseless = await exported(ships.recording, "senseless", "--around", "ada");
   assert.equal(senseless.status, 2, senseless.err);
   assert.match(senseless.err, /--around "ada"; allowed: /);
+  const notes = `${world.folder}/notes.rec`;
+  writeFileSync(notes, "this is no recording\n");
+  const none = await exported(notes, "none");
+  assert.equal(none.status, 66, none.err);
+  assert.match(none.err, /notes\.rec: byte 0: /);
   assert.deepEqual([...page.faults, ...other.faults], []);
 });
 

@@ -48,13 +48,16 @@ bool CanBe(const v1::AgentState& state) {
          IsWithin(errors, kMost);
 }
 
+/// Positions to the step; rates grow with time, and turn large bodies visibly.
 StateTable::Agent Rounded(StateTable::Agent agent, double step) {
-  const auto round = [step](double* x) { *x = step * std::round(*x / step); };
-  for (auto* vector : {&agent.p, &agent.v, &agent.a, &agent.w}) {
-    for (double& x : *vector) round(&x);
+  const auto round = [](double* x, double unit) { *x = unit * std::round(*x / unit); };
+  const double rate_step = std::min(step, StateTable::kRateStepMax);
+  for (double& x : agent.p) round(&x, step);
+  for (auto* vector : {&agent.v, &agent.a, &agent.w}) {
+    for (double& x : *vector) round(&x, rate_step);
   }
-  round(&agent.position_error);
-  round(&agent.velocity_error);
+  round(&agent.position_error, step);
+  round(&agent.velocity_error, rate_step);
   return agent;
 }
 

@@ -22,6 +22,7 @@ class StateTable {
   /// A chunk is sent as a whole when one of its agents has changed.
   static constexpr std::uint32_t kStatesOfAChunk = 512;
   static constexpr std::size_t kHeaderBytes = 8, kStateBytes = 96;
+  static constexpr double kRateStepMax = 0x1p-10;  ///< Of velocities and the like [SI].
 
   /// Agents beyond it are not shown.
   static constexpr std::uint32_t kAgentsMax = 1 << 20;
@@ -71,8 +72,8 @@ class StateTable {
 
   /// All that have changed after the change `seen`, as bytes: for each agent u32 number, u32 0,
   /// then kStateBytes as above; of all these the first bytes, then the second ones, and so on:
-  /// they compress to half. Numbers are rounded to multiples of `step`, a power of two [SI]; 0: as
-  /// they are. Empty: none has changed.
+  /// they compress to half. Numbers are rounded to multiples of `step`, a power of two [SI], those
+  /// of motion of kRateStepMax at most; 0: as they are. Empty: none has changed.
   std::string PackAfter(std::uint64_t seen, double step = 0) const;
 
   /// The number of the newest change.

@@ -95,7 +95,7 @@ double StepFor(double radius_m) {
 Found Find(const ExportOptions& options, const ReplayRequest& request) {
   EventSearch search(options.around);
   auto replayed = std::make_unique<ReplayedWorld>(request);
-  const ReplayedWorld& world = *replayed;
+  ReplayedWorld& world = *replayed;
   WorldView view;
   MessageMonitor::Callbacks callbacks = view.Callbacks();
   callbacks.event = [&search, &view, keep = callbacks.event](const v1::CollisionEvent& event) {
@@ -108,6 +108,9 @@ Found Find(const ExportOptions& options, const ReplayRequest& request) {
     static_cast<void>(view.TakeEvents());
   }
   if (!search.found()) {
+    if (world.Finish() != 0) {
+      throw std::runtime_error("--around: no such event up to where the recording can be replayed");
+    }
     const std::string contacts = search.Contacts();
     throw BadInput("--around: no such event in the recording" +
                    (contacts.empty() ? std::string("; there is no contact in it")

@@ -81,6 +81,16 @@ TEST_F(EventSearchTest, ANumberIsThatOfAnyRevision) {
   }
 }
 
+TEST_F(EventSearchTest, ComingNearIsNotMeantByNumberOrNames) {
+  v1::CollisionEvent near = Event(0, 2, v1::EVENT_CONFIRMED, 7);
+  near.set_level("warning");
+  for (const char* wanted : {"7", "ada,eve"}) {
+    EventSearch search(wanted);
+    Take(&search, {near});
+    EXPECT_EQ(SlotsOf(search), "") << wanted;
+  }
+}
+
 TEST_F(EventSearchTest, TwoAgentsAreFoundInEitherOrderAndByFullNames) {
   for (const char* names : {"ada,eve", "eve,ada", "sim:ada,eve", "sim:eve,sim:ada"}) {
     EventSearch search(names);
