@@ -227,7 +227,6 @@ test("a file that cannot be shown is told of, and what is live goes on", async (
   const files = [
     ["notes.txt", "this is no recording\n", /cannot be shown: .*collisiond cannot replay it/s],
     ["empty.rec", "", /cannot be shown: /],
-    ["cut.mcap", bytes.subarray(0, bytes.length / 2), /cannot be shown: /],
     // What comes before is shown before the damage is met.
     ["broken.mcap", broken, /cannot be shown: /],
   ];
@@ -248,6 +247,18 @@ test("a file that cannot be shown is told of, and what is live goes on", async (
   // And what can be shown is shown then.
   await drag(page, ships.path);
   await isOpened(page);
+  assert.deepEqual(page.faults, []);
+});
+
+test("of a file that a crash has left, what is whole is shown", async () => {
+  const page = await livePage();
+  const cut = `${world.folder}/cut.mcap`;
+  const last = recordsOf(orbits.bytes).filter(({ opcode }) => opcode === 6).at(-1);
+  writeFileSync(cut, orbits.bytes.subarray(0, last.begin + 100));
+  await drag(page, cut);
+  await isOpened(page);
+  const { begin, end } = await page.evaluate(() => collision.world.player);
+  assert.ok(end > begin && end < 660, `it ends at ${end} s`);
   assert.deepEqual(page.faults, []);
 });
 
