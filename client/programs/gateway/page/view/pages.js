@@ -129,8 +129,7 @@ export class Pages {
         return this.row(one.key, false, () => this.onChoose({ event: one }),
           element("td", {}, mark(level === 0 ? "over" : LEVELS[level])),
           element("td", {}, `${event.lower.name} – ${event.higher.name}`),
-          element("td", {}, (statusAt(one, t) ?? "not told yet") +
-            (event.level ? ` (${event.level})` : "")),
+          element("td", {}, statusText(one, t) + (event.level ? ` (${event.level})` : "")),
           element("td", {}, beginText(event, t)),
           element("td", { class: "number" }, gapText(event)));
       })), more(shown.length)].filter(Boolean);
@@ -181,7 +180,7 @@ export class Pages {
         fullName(event.higher)),
       element("p", { class: "sentence" }, event.explanation ?? ""),
       list([
-        ["Status", (statusAt(one, t) ?? "not told yet") + (event.because ? `, since one has ${event.because}` : "")],
+        ["Status", statusText(one, t) + (event.because ? `, since one has ${event.because}` : "")],
         ["Begins", bracket(event.begin)],
         ["Which is", Date.parse(this.world.status?.epoch_utc ?? "") > 0 &&
           event.begin.earliest_s != null &&
@@ -254,6 +253,12 @@ function gapText(event) {
   const gap = gapOf(event);
   if (!gap) return "–";
   return gap.upper != null && gap.upper <= 0 ? "touch" : quantity(Math.max(0, gap.lower), "m");
+}
+
+/** What was told by `t`, and what has been told since. */
+function statusText(one, t) {
+  const then = statusAt(one, t), now = one.event.status;
+  return then === now ? now : `${then ?? "not told"} then, ${now} since`;
 }
 
 function beginText(event, t) {
