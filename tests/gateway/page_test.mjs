@@ -133,6 +133,32 @@ for (const [scene, speed] of [["iridium-cosmos", 120], ["spaceships", 4]]) {
   });
 }
 
+test("where an agent was follows from the states on both sides", async () => {
+  const world = new TestWorld(148, REAL_TIME);
+  try {
+    const { page } = await pageThatIsWell(world);
+    const places = await page.evaluate(async () => {
+      const { History, positionAt } = await import("/model/history.js");
+      const told = (t, x, v, jumped = false) =>
+        ({ t, p: [x, 0, 0], v: [v, 0, 0], a: [0, 0, 0], jumped });
+      const history = new History(100);
+      // x = t^3, of which a state tells place and velocity alone; then it is set elsewhere.
+      for (const state of [told(1, 1, 3), told(3, 27, 27), told(4, 100, 0, true)]) {
+        history.add(state);
+      }
+      const at = (t) => positionAt(history.at(t), t)[0];
+      const open = [at(2), at(3.5), at(5)];
+      history.addPast([told(0, 0, 0), told(0, 7, 7)]);
+      return [...open, at(0.5)];
+    });
+    // The cubic; as it went on before the jump; as it goes on; between a past that came later.
+    assert.deepEqual(places.map((x) => Number(x.toFixed(9))), [8, 40.5, 100, 0.125]);
+    assert.deepEqual(page.faults, []);
+  } finally {
+    await world.end();
+  }
+});
+
 test("a link leads to an event, and a reader of the screen finds names", async () => {
   const { world, gateway, page } = await twoThatMeet(141);
   try {

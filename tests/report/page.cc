@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "client/programs/shared/base64.h"
+#include "client/programs/shared/web_text.h"
 #include "tests/report/first_plots.h"
 #include "tests/report/page_frame.h"
 #include "tests/report/promises.h"
@@ -12,6 +12,8 @@
 #include "tests/report/verdict.h"
 
 namespace collision::report {
+
+using client::EscapeHtml;
 
 using chart::Chart;
 using chart::Series;

@@ -14,8 +14,6 @@ std::string Grouped(double value);
 /// "12 ns", "3.4 µs", "1.2 s", "2 min 5 s".
 std::string Duration(double seconds);
 
-std::string EscapeHtml(const std::string& text);
-
 /// Throw std::runtime_error that names the file.
 std::string ReadFile(const std::string& path);
 void WriteFile(const std::string& path, const std::string& text);

@@ -135,7 +135,7 @@ const std::vector<Layer>& Layers() {
       {programs + "foxglove/",
        {"idl/", api, library, programs + "shared/", programs + "scene/", programs + "foxglove/"}},
       {programs + "gateway/web/",
-       {"idl/sha256.h", programs + "scene/payload.h", programs + "shared/base64.h",
+       {"idl/sha256.h", programs + "scene/payload.h", programs + "shared/web_text.h",
         programs + "gateway/web/"}},
       {programs + "gateway/",
        {"idl/", api, library, programs + "shared/", programs + "tools/collisionctl/",

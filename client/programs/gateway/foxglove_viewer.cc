@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "client/programs/shared/base64.h"
+#include "client/programs/shared/web_text.h"
 #include "client/programs/tools/collisionctl/json/json_writer.h"
 
 namespace collision::gateway {

@@ -64,7 +64,6 @@ ReplayProcess::ReplayProcess(const std::vector<std::string>& words, int niceness
 ReplayProcess::~ReplayProcess() {
   Kill();
   Wait();
-  close(output_);
 }
 
 void ReplayProcess::Kill() {
@@ -74,6 +73,7 @@ void ReplayProcess::Kill() {
 
 int ReplayProcess::Wait() {
   if (pid_ < 0) return code_;
+  close(output_);
   // Its id stays its own until it is reaped, which happens within the lock.
   siginfo_t ended{};
   while (waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT) != 0 && errno == EINTR) {

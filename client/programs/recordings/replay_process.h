@@ -26,8 +26,9 @@ class ReplayProcess {
   /// Ends it at once: its output is over. Any thread.
   void Kill();
 
-  /// Waits for its end. Returns its exit code, or 1 if a signal has ended it; the first one again
-  /// if it is called again.
+  /// Reads no more, and waits for its end: where it has more to say, that fails. Requires that what
+  /// has opened output_path() is closed. Returns its exit code, or 1 if a signal has ended it; the
+  /// first one again if it is called again.
   int Wait();
 
  private:

@@ -64,7 +64,7 @@ ReplayedWorld::ReplayedWorld(const ReplayRequest& request)
 
 ReplayedWorld::~ReplayedWorld() = default;
 
-bool ReplayedWorld::NextEntry() { return entries_.Next(&entry_); }
+bool ReplayedWorld::NextEntry() { return entries_->Next(&entry_); }
 
 void ReplayedWorld::Receive(std::chrono::nanoseconds, Arrivals* arrivals) {
   bool has_step = false;
@@ -100,6 +100,7 @@ void ReplayedWorld::BeginRun(Arrivals* arrivals) {
 
 int ReplayedWorld::Finish() {
   is_over_ = true;
+  entries_.reset();
   return process_.Wait();
 }
 

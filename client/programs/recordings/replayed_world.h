@@ -56,7 +56,7 @@ class ReplayedWorld final : public Receiver {
   void BeginRun(Arrivals* arrivals);
 
   ReplayProcess process_;
-  wire::EntryReader entries_;
+  std::optional<wire::EntryReader> entries_;
   v1::RecordingEntry entry_;  ///< The next one, unless it is over.
   std::chrono::steady_clock::time_point now_{};
   std::chrono::nanoseconds before_{0};  ///< Time of the starts of the service before this one.

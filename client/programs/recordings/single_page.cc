@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "client/programs/shared/base64.h"
+#include "client/programs/shared/web_text.h"
 
 namespace collision::client {
 namespace {
@@ -33,26 +33,6 @@ std::string Gzipped(const std::string& bytes) {
   return packed;
 }
 
-std::string EscapedForHtml(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
 }  // namespace
 
 std::string SinglePage(const std::string& page_template, const SinglePageTitle& title,
@@ -67,8 +47,8 @@ std::string SinglePage(const std::string& page_template, const SinglePageTitle& 
     bytes += message;
   }
   return page_template.substr(0, place) +
-         "<script type=\"text/plain\" id=\"recorded\" data-name=\"" + EscapedForHtml(title.name) +
-         "\" data-event=\"" + EscapedForHtml(title.event_key) + "\">" + Base64(Gzipped(bytes)) +
+         "<script type=\"text/plain\" id=\"recorded\" data-name=\"" + EscapeHtml(title.name) +
+         "\" data-event=\"" + EscapeHtml(title.event_key) + "\">" + Base64(Gzipped(bytes)) +
          "</script>" + page_template.substr(place + kPlace.size());
 }
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "client/programs/shared/base64.h"
+#include "client/programs/shared/web_text.h"
 #include "idl/sha256.h"
 
 namespace collision::gateway {

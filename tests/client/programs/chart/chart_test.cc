@@ -75,10 +75,21 @@ TEST(GnuplotScript, DrawsColourMarkAndDash) {
   Chart chart = ChartOfNames({"bob"});
   chart.series[0].look = Look{Colour::kGreen, Mark::kDiamond, 1};
   const std::string script = GnuplotScript(chart, "c.svg");
-  EXPECT_NE(script.find("pt 13 ps 0.6 dt (12,4) lc rgb '#009e73'"), std::string::npos) << script;
+  EXPECT_NE(script.find("pt 13 ps 0.6 pi 1 dt (12,4) lc rgb '#009e73'"), std::string::npos)
+      << script;
   chart.series[0].points[0].y = std::nullopt;
   const std::string crossed = GnuplotScript(chart, "c.svg");
   EXPECT_NE(crossed.find("with points pt 2 "), std::string::npos) << crossed;
+}
+
+TEST(GnuplotScript, SetsMarksApartOnCurvesOfManyPoints) {
+  Chart chart = ChartOfNames({"bob"});
+  chart.draws_title = true;
+  chart.title = "Bob's";
+  for (int i = 0; i < 200; ++i) chart.series[0].points.push_back({1.0 + i, 2.0, ""});
+  const std::string script = GnuplotScript(chart, "c.svg");
+  EXPECT_NE(script.find(" pi 6 "), std::string::npos) << script;
+  EXPECT_NE(script.find("set title 'Bob''s' noenhanced"), std::string::npos) << script;
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ TEST(SinglePage, NamesStayNames) {
   const std::string page =
       SinglePage("<!-- recorded -->",
                  {.name = "\"><script>alert(1)</script>&amp;", .event_key = "event/\"7\""}, {});
-  EXPECT_NE(page.find("data-name=\"&quot;>&lt;script>alert(1)&lt;/script>&amp;amp;\""),
+  EXPECT_NE(page.find("data-name=\"&quot;&gt;&lt;script&gt;alert(1)&lt;/script&gt;&amp;amp;\""),
             std::string::npos)
       << page;
   EXPECT_NE(page.find("data-event=\"event/&quot;7&quot;\""), std::string::npos) << page;

@@ -13,10 +13,12 @@ export class History {
     const last = this.states.at(-1);
     if (last && last.t === state.t) {
       this.states[this.states.length - 1] = state;  // a clearance came, or a jump
+      if (this.states.length > 1) this.states.at(-2).next = state;
       return;
     }
     // Time began anew, as it does in lock-step.
     if (last && state.t < last.t - 1e-6) this.states.length = 0;
+    else if (last) last.next = state;
     this.states.push(state);
     if (this.states.length > this.limit) this.thin();
   }
@@ -26,12 +28,19 @@ export class History {
     const first = this.states[0]?.t ?? Infinity;
     const past = states.filter(({ t }, i) => t < first && (i === 0 || t > states[i - 1].t));
     this.states = [...past, ...this.states];
+    this.link();
     if (this.states.length > this.limit) this.thin();
   }
 
   thin() {
     const half = this.states.length >> 1;
     this.states = this.states.filter((_, i) => i >= half || i % 2 === 0);
+    this.link();
+  }
+
+  /** Each knows the next. */
+  link() {
+    this.states.forEach((state, i) => (state.next = this.states[i + 1]));
   }
 
   get newest() {
@@ -60,10 +69,27 @@ export class History {
   }
 }
 
-/** Where a state leads if it goes on as it said, `t` after all that was told. */
+/** Where an agent is: on the cubic curve to the next state, if that is known; else carried on. */
 export function positionAt(state, t, out = [0, 0, 0]) {
+  const { next } = state;
+  return next && t > state.t && t < next.t && !next.jumped ? cubicBetween(state, next, t, out)
+    : carriedOn(state, t, out);
+}
+
+/** Where a state leads if the agent keeps what it said. */
+export function carriedOn(state, t, out = [0, 0, 0]) {
   const d = t - state.t, h = d * d / 2;
   for (let k = 0; k < 3; ++k) out[k] = state.p[k] + state.v[k] * d + state.a[k] * h;
+  return out;
+}
+
+/** Hermite's cubic through the positions and velocities of two states. */
+function cubicBetween(a, b, t, out) {
+  const span = b.t - a.t, s = (t - a.t) / span, r = 1 - s;
+  const atA = r * r * (1 + 2 * s), atB = s * s * (1 + 2 * r);
+  for (let k = 0; k < 3; ++k) {
+    out[k] = atA * a.p[k] + atB * b.p[k] + span * s * r * (r * a.v[k] - s * b.v[k]);
+  }
   return out;
 }
 

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DObject, CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
-import { certainRadius, positionAt } from "../model/history.js";
+import { carriedOn, certainRadius, positionAt } from "../model/history.js";
 import { LEVELS } from "../model/world.js";
 import { Bodies } from "./bodies.js";
 import { colorOf, element, quantity } from "./format.js";
@@ -175,7 +175,7 @@ export class Scene3D {
     const radius = certainRadius(state, agent.declaration, t, this.world.skew);
     const ball = new THREE.LineSegments(ringsOf(radius), new THREE.LineBasicMaterial({
       color: colorOf("certain"), transparent: true, opacity }));
-    ball.position.set(...this.local(positionAt(state, t)));
+    ball.position.set(...this.local(carriedOn(state, t)));
     this.overlay.add(ball);
   }
 

@@ -1,4 +1,4 @@
-// Bytes as text.
+// Bytes and texts as pages have them.
 #pragma once
 
 #include <cstddef>
@@ -21,6 +21,30 @@ inline std::string Base64(const std::string& bytes) {
     }
   }
   return text;
+}
+
+/// Between tags, and between double quotes.
+inline std::string EscapeHtml(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
 }
 
 }  // namespace collision::client
