@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/programs/gateway/json_member.h"
 #include "client/programs/shared/web_text.h"
 #include "client/programs/tools/collisionctl/json/json_writer.h"
 
@@ -60,12 +61,6 @@ WebMessage TimeMessage(std::int64_t now_ns) {
   std::string bytes(1, kTime);
   Append(static_cast<std::uint64_t>(now_ns), &bytes);
   return {.is_text = false, .pieces = {MakePayload(std::move(bytes))}};
-}
-
-/// The member of this name; one without a kind: there is none.
-const Value& Member(const Struct& object, const std::string& name) {
-  const auto found = object.fields().find(name);
-  return found == object.fields().end() ? Value::default_instance() : found->second;
 }
 
 /// A whole number that an id can be.
@@ -126,13 +121,13 @@ std::string FoxgloveViewer::Hear(const std::string& message, bool is_text) {
 }
 
 void FoxgloveViewer::Obey(const Struct& operation) {
-  const std::string& name = Member(operation, "op").string_value();
+  const std::string& name = MemberOf(operation, "op").string_value();
   if (name == "subscribe") {
-    for (const Value& wish : Member(operation, "subscriptions").list_value().values()) {
+    for (const Value& wish : MemberOf(operation, "subscriptions").list_value().values()) {
       Subscribe(wish.struct_value());
     }
   } else if (name == "unsubscribe") {
-    for (const Value& id : Member(operation, "subscriptionIds").list_value().values()) {
+    for (const Value& id : MemberOf(operation, "subscriptionIds").list_value().values()) {
       Unsubscribe(id);
     }
   } else {
@@ -142,7 +137,7 @@ void FoxgloveViewer::Obey(const Struct& operation) {
 }
 
 void FoxgloveViewer::Subscribe(const Struct& wish) {
-  const auto id = IdOf(Member(wish, "id")), channel = IdOf(Member(wish, "channelId"));
+  const auto id = IdOf(MemberOf(wish, "id")), channel = IdOf(MemberOf(wish, "channelId"));
   if (!id || !channel || !client::IsChannel(*channel)) {
     return Refuse("A subscription has an id and the channelId of a channel that is advertised.");
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "client/programs/foxglove/messages/foxglove.pb.h"
+#include "client/programs/gateway/json_member.h"
 
 namespace collision::gateway {
 namespace {
@@ -69,9 +70,9 @@ class FoxgloveViewerTest : public testing::Test {
     if (!message || !message->is_text) return "";
     Struct status;
     EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(*message->pieces[0], &status).ok());
-    EXPECT_EQ(status.fields().at("op").string_value(), "status");
-    EXPECT_EQ(status.fields().at("level").number_value(), 2);
-    return status.fields().at("message").string_value();
+    EXPECT_EQ(MemberOf(status, "op").string_value(), "status");
+    EXPECT_EQ(MemberOf(status, "level").number_value(), 2);
+    return MemberOf(status, "message").string_value();
   }
 
   void Say(const std::string& message) { EXPECT_EQ(viewer_.Hear(message, true), ""); }
@@ -102,18 +103,19 @@ TEST_F(FoxgloveViewerTest, IsToldOfTheServerAndItsChannelsFirst) {
   ASSERT_TRUE(message && message->is_text);
   Struct advertise;
   ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(*message->pieces[0], &advertise).ok());
-  EXPECT_EQ(advertise.fields().at("op").string_value(), "advertise");
-  const auto& channels = advertise.fields().at("channels").list_value();
+  EXPECT_EQ(MemberOf(advertise, "op").string_value(), "advertise");
+  const auto& channels = MemberOf(advertise, "channels").list_value();
   ASSERT_EQ(channels.values_size(), static_cast<int>(client::Channels().size()));
   for (int i = 0; i < channels.values_size(); ++i) {
-    const auto& fields = channels.values(i).struct_value().fields();
+    const Struct& fields = channels.values(i).struct_value();
     const client::Channel& channel = client::Channels()[static_cast<std::size_t>(i)];
-    EXPECT_EQ(fields.at("id").number_value(), channel.id);
-    EXPECT_EQ(fields.at("topic").string_value(), channel.topic);
-    EXPECT_EQ(fields.at("encoding").string_value(), channel.encoding);
-    EXPECT_EQ(fields.at("schemaName").string_value(), channel.schema_name);
-    EXPECT_EQ(fields.at("schemaEncoding").string_value(), channel.schema_encoding);
-    EXPECT_EQ(fields.at("schema").string_value() == channel.schema, channel.encoding == "cdr")
+    EXPECT_EQ(MemberOf(fields, "id").number_value(), channel.id);
+    EXPECT_EQ(MemberOf(fields, "topic").string_value(), channel.topic);
+    EXPECT_EQ(MemberOf(fields, "encoding").string_value(), channel.encoding);
+    EXPECT_EQ(MemberOf(fields, "schemaName").string_value(), channel.schema_name);
+    EXPECT_EQ(MemberOf(fields, "schemaEncoding").string_value(), channel.schema_encoding);
+    EXPECT_EQ(MemberOf(fields, "schema").string_value() == channel.schema,
+              channel.encoding == "cdr")
         << "bytes are told in base64";
   }
   message = other.Next();
