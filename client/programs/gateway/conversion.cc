@@ -49,9 +49,12 @@ void Conversion::Start(std::string recording, WebReply reply) {
   }
   if (thread_.joinable()) thread_.join();  // it has done its work
   thread_ = std::thread([this, recording = std::move(recording), reply = std::move(reply)] {
-    reply(Run(recording));
-    const std::lock_guard done(mutex_);
-    is_busy_ = false;
+    WebResponse answer = Run(recording);
+    {
+      const std::lock_guard done(mutex_);
+      is_busy_ = false;  // before the answer: who has it may send the next
+    }
+    reply(std::move(answer));
   });
   is_busy_ = true;
 }

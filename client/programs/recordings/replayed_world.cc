@@ -58,16 +58,20 @@ std::vector<std::string> CommandOf(const ReplayRequest& request) {
 }  // namespace
 
 ReplayedWorld::ReplayedWorld(const ReplayRequest& request)
-    : process_(CommandOf(request), request.niceness), entries_(process_.output_path()) {
-  is_over_ = !NextEntry();
-}
+    : process_(CommandOf(request), request.niceness), entries_(process_.output_path()) {}
 
 ReplayedWorld::~ReplayedWorld() = default;
+
+bool ReplayedWorld::Begin() {
+  if (!std::exchange(has_begun_, true)) is_over_ = !NextEntry();
+  return !is_over_;
+}
 
 bool ReplayedWorld::NextEntry() { return entries_->Next(&entry_); }
 
 void ReplayedWorld::Receive(std::chrono::nanoseconds, Arrivals* arrivals) {
   bool has_step = false;
+  Begin();
   while (!is_over_) {
     if (entry_.has_batch()) {
       if (has_step) return;

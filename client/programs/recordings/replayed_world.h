@@ -24,7 +24,8 @@ struct ReplayRequest {
 /// step took in and told. One thread.
 class ReplayedWorld final : public Receiver {
  public:
-  /// Throws std::runtime_error if there is no collisiond, or no such file.
+  /// Does not wait for the replay. Throws std::runtime_error if there is no collisiond, or no such
+  /// file.
   explicit ReplayedWorld(const ReplayRequest& request);
   /// Ends the replay.
   ~ReplayedWorld() override;
@@ -38,7 +39,10 @@ class ReplayedWorld final : public Receiver {
   /// The recorded monotonic time of the step.
   std::chrono::steady_clock::time_point Now() const override { return now_; }
 
-  /// Nothing is left.
+  /// Waits until the replay has said something. False: it has nothing to say.
+  bool Begin();
+
+  /// Nothing is left, as far as was received.
   bool is_over() const { return is_over_; }
 
   /// The wall time of the step [ns since 1970].
@@ -62,7 +66,7 @@ class ReplayedWorld final : public Receiver {
   std::chrono::nanoseconds before_{0};  ///< Time of the starts of the service before this one.
   std::int64_t wall_ns_ = 0;
   std::uint64_t service_ = 0;  ///< That told the last message.
-  bool is_over_ = false;
+  bool has_begun_ = false, is_over_ = false;
 };
 
 }  // namespace collision::client

@@ -86,7 +86,7 @@ int RunConvert(const ConvertOptions& options) {
     CheckOutput(options.output, options.input);
     replayed =
         std::make_unique<ReplayedWorld>(ReplayOf(options.input, options.from, options.until));
-    if (replayed->is_over()) return replayed->Finish();  // no recording: a former file stays
+    if (!replayed->Begin()) return replayed->Finish();  // no recording: a former file stays
   } catch (const BadInput& error) {
     return FailWith(error.what(), kExitUsage);
   } catch (const std::runtime_error& error) {
