@@ -41,12 +41,6 @@ void EventBook::Take(const v1::CollisionEvent& event) {
   if (events_.size() > kEventsMax) DropOldest();
 }
 
-std::optional<std::uint64_t> EventBook::NumberOf(const v1::CollisionEvent& event) const {
-  const auto known = events_.find(KeyOf(event));
-  if (known == events_.end()) return std::nullopt;
-  return known->second.number;
-}
-
 void EventBook::Supersede(const Key& key) {
   const auto former = events_.find(key);
   if (former == events_.end() || former->second.newest.status() != v1::EVENT_POSSIBLE) return;

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -53,11 +52,6 @@ class EventBook {
 
   /// Since the last call.
   Changes TakeChanges();
-
-  bool Has(std::uint64_t number) const { return by_age_.count(number) > 0; }
-
-  /// The number of this event, whichever its revision; nullopt: it is not kept.
-  std::optional<std::uint64_t> NumberOf(const v1::CollisionEvent& event) const;
 
   /// Of all that are kept, the oldest first.
   std::vector<std::uint64_t> Numbers() const;

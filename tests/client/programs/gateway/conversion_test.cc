@@ -1,5 +1,5 @@
-// Goal:   of recordings that are dropped one is made at a time, what cannot be replayed is told, and
-//         a replay that hangs ends with the gateway.
+// Goal:   recordings that are dropped are made one at a time; what cannot be replayed is told; a
+//         replay that hangs ends with the gateway.
 // Method: a program in place of collisiond that fails, or never ends.
 #include "client/programs/gateway/conversion.h"
 
